@@ -88,6 +88,33 @@ pub(crate) fn hashes() -> Result<Vec<(&'static str, Option<String>)>> {
     language.compilers.into_iter().map(by).collect()
 }
 
+/// Compiles the plugin of MuJoCo's engine, against the engine in a folder of Python's package. The
+/// library is built already. Nothing, and a line that says so, where it cannot be had.
+pub(crate) fn mujoco_plugin(engine: &Path) -> Result<Option<PathBuf>> {
+    let [_, Language { compilers, standard, .. }] = &LANGUAGES;
+    let library = fs::read_dir(engine)?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .find(|name| name.starts_with("libmujoco.so"));
+    let compiler = compilers.iter().find(|compiler| runs(compiler, &["--version"]));
+    let (Some(library), Some(compiler)) = (library, compiler) else {
+        println!("a compiler of C++ or the engine is missing, so MuJoCo's plugin is skipped");
+        return Ok(None);
+    };
+    let folders = Folders::new()?;
+    let made = folders.made.join("libgrouser_mujoco.so");
+    let mut command = Command::new(compiler);
+    command.args([standard, "-O2", "-shared", "-fPIC"]).args(OPTIONS);
+    command.arg(folders.sources.join("mujoco/soil.cpp"));
+    command.arg("-I").arg(folders.sources.join("include"));
+    command.arg("-isystem").arg(engine.join("include"));
+    command.arg(folders.library.join("libgrouser_c.a"));
+    command.arg("-L").arg(engine).arg(format!("-l:{library}"));
+    command.args(["-lm", "-lpthread", "-ldl", "-o"]).arg(&made);
+    let status = command.status().with_context(|| format!("{compiler} did not start"))?;
+    ensure!(status.success(), "{compiler} does not compile MuJoCo's plugin");
+    Ok(Some(made))
+}
+
 /// What makes the header. A tool and no dependency: who builds the library has the header already.
 const CBINDGEN: &str = "0.29.4";
 

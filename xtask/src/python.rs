@@ -14,7 +14,7 @@ use crate::extent::Extent;
 use crate::libtest::Count;
 use crate::requirements::{self, Requirement};
 use crate::tools::RENDERER;
-use crate::{markers, workspace};
+use crate::{c, markers, workspace};
 
 /// The package's folder.
 const PACKAGE: &str = "crates/grouser-python";
@@ -233,6 +233,9 @@ fn pytest(python: &Path, program: &Path, arguments: &[&str]) -> Result<Count> {
     let mut command = Command::new(python);
     command.args(["-m", "pytest", "--quiet", "-rs", "-p", "no:cacheprovider"]).args(arguments);
     command.current_dir(workspace::root().join(PACKAGE)).env("GROUSER_PROGRAM", program);
+    if let Some(plugin) = mujoco_plugin(python)? {
+        command.env("GROUSER_MUJOCO_PLUGIN", plugin);
+    }
     if !RENDERER.is_here() {
         command.envs(WITHOUT_RENDERER);
     }
@@ -245,6 +248,14 @@ fn pytest(python: &Path, program: &Path, arguments: &[&str]) -> Result<Count> {
         }
     }
     Ok(count_of(&last, child.wait()?.success()))
+}
+
+/// The plugin of the engine that an environment has.
+fn mujoco_plugin(python: &Path) -> Result<Option<PathBuf>> {
+    let find = "import mujoco, pathlib; print(pathlib.Path(mujoco.__file__).parent)";
+    let found = c::output(Command::new(python).args(["-c", find]))?;
+    c::build("reference")?;
+    c::mujoco_plugin(Path::new(found.trim()))
 }
 
 /// The counts of pytest's last line, `1 failed, 59 passed in 12.3s`.

@@ -12,6 +12,8 @@
 #include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -26,8 +28,8 @@ constexpr char kName[] = "grouser.soil";
 /* What an instance is given. */
 constexpr const char* kAttributes[] = {
     "soil",    "wheel",         "wheels",               "ground",
-    "changes", "wheel_moments", "sinkage_damping_s_m",  "rest_speed_m_s",
-    "check_sizes",
+    "model",   "changes",       "wheel_moments",        "sinkage_damping_s_m",
+    "rest_speed_m_s",           "check_sizes",
 };
 constexpr int kAttributeCount = sizeof kAttributes / sizeof *kAttributes;
 
@@ -77,20 +79,18 @@ bool choice(const mjModel* m, int instance, const char* name, const char* yes, c
   return text == yes;
 }
 
-/* The words of an attribute: one for all wheels, or one for each. */
-std::vector<std::string> words(const mjModel* m, int instance, const char* name, size_t count) {
+std::vector<std::string> words(const mjModel* m, int instance, const char* name) {
   std::istringstream text(attribute(m, instance, name));
-  std::vector<std::string> found;
-  for (std::string word; text >> word;) {
-    found.push_back(word);
-  }
-  if (found.empty()) {
-    refuse("there is no %s", name);
-  }
-  if (count != 0 && found.size() == 1) {
+  return {std::istream_iterator<std::string>(text), {}};
+}
+
+/* The words of an attribute that has one for all wheels, or one for each. */
+std::vector<std::string> one_each(const mjModel* m, int instance, const char* name, size_t count) {
+  auto found = words(m, instance, name);
+  if (found.size() == 1) {
     found.resize(count, found.front());
   }
-  if (count != 0 && found.size() != count) {
+  if (found.size() != count) {
     refuse("%s names %zu for %zu wheels", name, found.size(), count);
   }
   return found;
@@ -250,28 +250,43 @@ void check_size(const mjModel* m, int hinge, const std::string& name, const Grou
   }
 }
 
+/* What is freed with its owner. */
+template <typename Handle, GrouserStatus (*free)(Handle)>
+struct Owned {
+  Handle handle = {0};
+
+  Owned() = default;
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  ~Owned() { free(handle); }
+};
+
+using OwnedTest = Owned<GrouserWheelTest, grouser_wheel_test_free>;
+using OwnedWheels = Owned<GrouserSteppingWheels, grouser_stepping_wheels_free>;
+
+struct DeleteData {
+  void operator()(mjData* d) const { mj_deleteData(d); }
+};
+
 /* The soil under the wheels of some data. */
 class Soil {
  public:
   Soil(const mjModel* m, int instance);
-  ~Soil();
-  Soil(const Soil&) = delete;
-  Soil& operator=(const Soil&) = delete;
 
   void apply(const mjModel* m, mjData* d, const double* state);
   void advance(double* state) const;
 
  private:
-  void read(const mjModel* m, int instance);
+  void read_wheels(const mjModel* m, int instance);
   void step_ahead(const mjModel* m, const mjData* d, const double* state);
   void look_at_ground(const mjModel* m);
   void take_inertia(const mjModel* m);
 
-  GrouserSteppingWheels wheels_ = {0};
+  OwnedWheels wheels_;
   int ground_;
   bool with_moments_;
   std::vector<int> hinges_, bodies_;
-  mjData* ahead_ = nullptr;
+  std::unique_ptr<mjData, DeleteData> ahead_;
   std::vector<double> state_, hubs_, axles_, normals_, heights_, jacobians_, inertia_;
   std::vector<GrouserMountedWheel> mounted_;
   std::vector<GrouserWrench> wrenches_;
@@ -287,52 +302,13 @@ Soil::Soil(const mjModel* m, int instance) {
       refuse("there are two instances of %s: one may have all wheels of a model", kName);
     }
   }
-  if (m->opt.integrator != mjINT_IMPLICIT && m->opt.integrator != mjINT_IMPLICITFAST) {
-    refuse("the model's integrator must be implicit or implicitfast");
+  if (m->opt.integrator == mjINT_RK4) {
+    refuse("the model's integrator is RK4, it must be Euler, implicit or implicitfast");
   }
-  try {
-    read(m, instance);
-  } catch (...) {
-    grouser_stepping_wheels_free(wheels_);
-    throw;
-  }
-}
-
-void Soil::read(const mjModel* m, int instance) {
   ground_ = ground_of(m, attribute(m, instance, "ground"));
   with_moments_ = choice(m, instance, "wheel_moments", "included", "neglected");
-  const bool checks_sizes = choice(m, instance, "check_sizes", "on", "off");
-  const auto names = words(m, instance, "wheels", 0);
-  const size_t count = names.size();
-  const auto soils = words(m, instance, "soil", count), kinds = words(m, instance, "wheel", count);
-  std::string changes = attribute(m, instance, "changes");
-  for (char& character : changes) {
-    character = character == ';' ? '\n' : character;
-  }
-  std::vector<GrouserWheelTest> tests;
-  for (size_t k = 0; k < count; k++) {
-    const int hinge = hinge_of(m, names[k]);
-    hinges_.push_back(hinge);
-    bodies_.push_back(m->jnt_bodyid[hinge]);
-    check_contact_is_off(m, bodies_[k], names[k], ground_);
-    GrouserWheelTest test;
-    GrouserWheelSize size;
-    check(grouser_wheel_test_new(soils[k].c_str(), kinds[k].c_str(), nullptr,
-                                 changes.empty() ? nullptr : changes.c_str(), &test));
-    tests.push_back(test);
-    check(grouser_wheel_test_size(test, &size));
-    if (checks_sizes) {
-      check_size(m, hinge, names[k], size);
-    }
-  }
-  check(grouser_stepping_wheels_new(
-      count, tests.data(),
-      number(m, instance, "sinkage_damping_s_m", GROUSER_SINKAGE_DAMPING_S_M),
-      number(m, instance, "rest_speed_m_s", GROUSER_REST_SPEED_M_S), &wheels_));
-  for (const GrouserWheelTest test : tests) {
-    grouser_wheel_test_free(test);
-  }
-  const size_t nv = m->nv;
+  read_wheels(m, instance);
+  const size_t count = hinges_.size(), nv = m->nv;
   hubs_.resize(3 * count);
   axles_.resize(3 * count);
   normals_.resize(3 * count);
@@ -344,9 +320,43 @@ void Soil::read(const mjModel* m, int instance) {
   stepped_.resize(count);
 }
 
-Soil::~Soil() {
-  grouser_stepping_wheels_free(wheels_);
-  mj_deleteData(ahead_);
+void Soil::read_wheels(const mjModel* m, int instance) {
+  const bool checks_sizes = choice(m, instance, "check_sizes", "on", "off");
+  const auto names = words(m, instance, "wheels");
+  const size_t count = names.size();
+  if (count == 0) {
+    refuse("there are no wheels");
+  }
+  const auto soils = one_each(m, instance, "soil", count);
+  const auto kinds = one_each(m, instance, "wheel", count);
+  const std::string model = attribute(m, instance, "model");
+  const std::string setting = "schema = \"scenario/1\"\nname = \"plugin\"\nmodel = \"" + model + "\"\n";
+  std::string changes = attribute(m, instance, "changes");
+  for (char& character : changes) {
+    character = character == ';' ? '\n' : character;
+  }
+  std::vector<OwnedTest> owned(count);
+  std::vector<GrouserWheelTest> tests;
+  for (size_t k = 0; k < count; k++) {
+    const int hinge = hinge_of(m, names[k]);
+    hinges_.push_back(hinge);
+    bodies_.push_back(m->jnt_bodyid[hinge]);
+    check_contact_is_off(m, bodies_[k], names[k], ground_);
+    GrouserWheelTest& test = owned[k].handle;
+    GrouserWheelSize size;
+    check(grouser_wheel_test_new(soils[k].c_str(), kinds[k].c_str(),
+                                 model.empty() ? nullptr : setting.c_str(),
+                                 changes.empty() ? nullptr : changes.c_str(), &test));
+    tests.push_back(test);
+    check(grouser_wheel_test_size(test, &size));
+    if (checks_sizes) {
+      check_size(m, hinge, names[k], size);
+    }
+  }
+  check(grouser_stepping_wheels_new(
+      count, tests.data(),
+      number(m, instance, "sinkage_damping_s_m", GROUSER_SINKAGE_DAMPING_S_M),
+      number(m, instance, "rest_speed_m_s", GROUSER_REST_SPEED_M_S), &wheels_.handle));
 }
 
 /* Writes the forces over the coming step. */
@@ -356,7 +366,7 @@ void Soil::apply(const mjModel* m, mjData* d, const double* state) {
   const size_t count = hinges_.size(), nv = m->nv;
   for (size_t k = 0; k < count; k++) {
     double* rows = jacobians_.data() + 6 * k * nv;
-    mj_jac(m, ahead_, rows, rows + 3 * nv, hubs_.data() + 3 * k, bodies_[k]);
+    mj_jac(m, ahead_.get(), rows, rows + 3 * nv, hubs_.data() + 3 * k, bodies_[k]);
     GrouserMountedWheel& wheel = mounted_[k];
     const double* held = ahead_->xfrc_applied + 6 * bodies_[k];
     mju_copy3(wheel.axle, axles_.data() + 3 * k);
@@ -370,7 +380,7 @@ void Soil::apply(const mjModel* m, mjData* d, const double* state) {
   const GrouserMechanismState mechanism = {
       count, mounted_.data(), nv, ahead_->qvel, jacobians_.data(), inertia_.data(), with_moments_};
   const GrouserEngineStep step = {m->opt.timestep, mju_norm3(m->opt.gravity)};
-  check(grouser_mechanism_step(wheels_, step, &mechanism, wrenches_.data(), stepped_.data(), nullptr));
+  check(grouser_mechanism_step(wheels_.handle, step, &mechanism, wrenches_.data(), stepped_.data(), nullptr));
   for (size_t k = 0; k < count; k++) {
     mju_copy3(d->xfrc_applied + 6 * bodies_[k], wrenches_[k].force_n);
     mju_copy3(d->xfrc_applied + 6 * bodies_[k] + 3, wrenches_[k].moment_nm);
@@ -381,16 +391,16 @@ void Soil::apply(const mjModel* m, mjData* d, const double* state) {
 void Soil::step_ahead(const mjModel* m, const mjData* d, const double* state) {
   if (!ahead_) {
     makes_copy = true;
-    ahead_ = mj_makeData(m);
+    ahead_.reset(mj_makeData(m));
     makes_copy = false;
     state_.resize(mj_stateSize(m, kStepState));
   }
   mj_getState(m, d, state_.data(), kStepState);
-  mj_setState(m, ahead_, state_.data(), kStepState);
+  mj_setState(m, ahead_.get(), state_.data(), kStepState);
   for (size_t k = 0; k < bodies_.size(); k++) {
     mju_copy(ahead_->xfrc_applied + 6 * bodies_[k], state + kPerWheel * k + kWrench, 6);
   }
-  mj_step(m, ahead_);
+  mj_step(m, ahead_.get());
   for (size_t k = 0; k < hinges_.size(); k++) {
     mju_copy3(hubs_.data() + 3 * k, ahead_->xanchor + 3 * hinges_[k]);
     mju_copy3(axles_.data() + 3 * k, ahead_->xaxis + 3 * hinges_[k]);
@@ -422,7 +432,7 @@ void Soil::look_at_ground(const mjModel* m) {
   read.half_size_m[1] = size[1];
   mju_copy3(read.origin_m, at);
   mju_copy(read.axes, axes, 9);
-  check(grouser_planes_on_field(wheels_, &read, heights_.size(), hubs_.data(), axles_.data(),
+  check(grouser_planes_on_field(wheels_.handle, &read, heights_.size(), hubs_.data(), axles_.data(),
                                 normals_.data(), heights_.data()));
 }
 
@@ -432,13 +442,19 @@ void Soil::take_inertia(const mjModel* m) {
   const int nv = m->nv;
   const double duration = m->opt.timestep;
 #if mjVERSION_HEADER >= 4000000
-  mj_fullM(m, ahead_, inertia_.data());
+  mj_fullM(m, ahead_.get(), inertia_.data());
 #else
   mj_fullM(m, inertia_.data(), ahead_->qM);
 #endif
-  for (int row = 0; row < nv; row++) {
-    for (int k = m->D_rowadr[row]; k < m->D_rowadr[row] + m->D_rownnz[row]; k++) {
-      inertia_[static_cast<size_t>(row) * nv + m->D_colind[k]] -= duration * ahead_->qDeriv[k];
+  if (m->opt.integrator != mjINT_EULER) {
+    for (int row = 0; row < nv; row++) {
+      for (int k = m->D_rowadr[row]; k < m->D_rowadr[row] + m->D_rownnz[row]; k++) {
+        inertia_[static_cast<size_t>(row) * nv + m->D_colind[k]] -= duration * ahead_->qDeriv[k];
+      }
+    }
+  } else if (!(m->opt.disableflags & mjDSBL_EULERDAMP)) {
+    for (int row = 0; row < nv; row++) {
+      inertia_[static_cast<size_t>(row) * (nv + 1)] += duration * m->dof_damping[row];
     }
   }
 }
@@ -465,12 +481,7 @@ Soil* soil_of(const mjData* d, int instance) {
 }
 
 int state_size(const mjModel* m, int instance) {
-  std::istringstream names(attribute(m, instance, "wheels"));
-  int count = 0;
-  for (std::string name; names >> name;) {
-    count++;
-  }
-  return kPerWheel * count;
+  return kPerWheel * static_cast<int>(words(m, instance, "wheels").size());
 }
 
 int init(const mjModel* m, mjData* d, int instance) {

@@ -81,7 +81,7 @@ pub unsafe extern "C" fn grouser_planes_on_field(
 /// The frame of a field, and its heights.
 ///
 /// # Safety
-/// As [`array`], of the field's heights.
+/// The pointer to the heights is as [`array`] asks.
 unsafe fn read(field: &GroundField) -> Result<(GroundFrame, HeightField<'_>), Failure> {
     let [x, y] = field.half_size_m;
     for number in field.origin_m.iter().chain(&field.axes).chain([&field.unit_m, &x, &y]) {

@@ -238,7 +238,7 @@ impl Wheels {
         Ok(())
     }
 
-    /// The wheels, which are as large as they are.
+    /// The wheels themselves, for their sizes.
     pub(crate) fn sizes(&self) -> impl Iterator<Item = Wheel> {
         self.each.iter().map(|of| of.wheel)
     }
