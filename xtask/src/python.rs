@@ -72,13 +72,13 @@ pub(crate) fn check(extent: Extent) -> Result<Count> {
         let heavy = requirements()?.into_iter().filter(|one| HEAVY.contains(&&*one.extra));
         install(&python, &heavy.map(|one| one.text).collect::<Vec<_>>())?;
     }
-    let program = workspace::build_program()?;
-    let mut count = pytest(&python, &program, &["-n", "2", "--dist", "loadfile", "tests"])?;
+    let built = built(&python)?;
+    let mut count = pytest(&python, &built, &["-n", "2", "--dist", "loadfile", "tests"])?;
     let mut examples = vec!["--doctest-modules", "--pyargs", "grouser"];
     if extent != Extent::Full {
         examples.push(NEEDS_HEAVY);
     }
-    count += pytest(&python, &program, &examples)?;
+    count += pytest(&python, &built, &examples)?;
     count += types(&python, &["-m", "mypy.stubtest", "grouser._core"])?;
     count += types(&python, &["-m", "mypy", "--strict", "tests/user_script.py"])?;
     // The package's own half; what it draws and tabulates with need not be typed.
@@ -100,7 +100,7 @@ pub(crate) fn check_lowest() -> Result<Count> {
     install(&python, &needed)?;
     install_wheel(&python, &wheel()?)?;
     // Old packages warn of younger ones that they use themselves: those warnings are theirs.
-    pytest(&python, &workspace::build_program()?, &["-W", "default", "tests"])
+    pytest(&python, &built(&python)?, &["-W", "default", "tests"])
 }
 
 /// The file that says what Python costs.
@@ -228,14 +228,24 @@ fn wheel() -> Result<PathBuf> {
 /// The setting by which MuJoCo draws nothing.
 pub(crate) const WITHOUT_RENDERER: [(&str, &str); 1] = [("MUJOCO_GL", "disable")];
 
+/// What tests of an environment use besides the package, by the variables that say where it is: the
+/// program, and the plugin of the engine that the environment has.
+fn built(python: &Path) -> Result<Vec<(&'static str, PathBuf)>> {
+    let find = "import mujoco, pathlib; print(pathlib.Path(mujoco.__file__).parent)";
+    let engine = c::output(Command::new(python).args(["-c", find]))?;
+    // The library for C is built beside the program.
+    let program = workspace::build_program()?;
+    c::build("reference")?;
+    let plugin = c::mujoco_plugin(Path::new(engine.trim()))?;
+    let plugin = plugin.map(|it| ("GROUSER_MUJOCO_PLUGIN", it));
+    Ok([("GROUSER_PROGRAM", program)].into_iter().chain(plugin).collect())
+}
+
 /// Runs pytest in the package's folder, shows what it says, and counts.
-fn pytest(python: &Path, program: &Path, arguments: &[&str]) -> Result<Count> {
+fn pytest(python: &Path, built: &[(&str, PathBuf)], arguments: &[&str]) -> Result<Count> {
     let mut command = Command::new(python);
     command.args(["-m", "pytest", "--quiet", "-rs", "-p", "no:cacheprovider"]).args(arguments);
-    command.current_dir(workspace::root().join(PACKAGE)).env("GROUSER_PROGRAM", program);
-    if let Some(plugin) = mujoco_plugin(python)? {
-        command.env("GROUSER_MUJOCO_PLUGIN", plugin);
-    }
+    command.current_dir(workspace::root().join(PACKAGE)).envs(built.iter().cloned());
     if !RENDERER.is_here() {
         command.envs(WITHOUT_RENDERER);
     }
@@ -248,14 +258,6 @@ fn pytest(python: &Path, program: &Path, arguments: &[&str]) -> Result<Count> {
         }
     }
     Ok(count_of(&last, child.wait()?.success()))
-}
-
-/// The plugin of the engine that an environment has.
-fn mujoco_plugin(python: &Path) -> Result<Option<PathBuf>> {
-    let find = "import mujoco, pathlib; print(pathlib.Path(mujoco.__file__).parent)";
-    let found = c::output(Command::new(python).args(["-c", find]))?;
-    c::build("reference")?;
-    c::mujoco_plugin(Path::new(found.trim()))
 }
 
 /// The counts of pytest's last line, `1 failed, 59 passed in 12.3s`.
