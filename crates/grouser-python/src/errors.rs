@@ -143,12 +143,16 @@ pub(crate) fn of_urdf(error: &UrdfError, file: &str) -> PyErr {
 
 /// A file that is not there, or cannot be read.
 pub(crate) fn unread(error: &FileProblem, file: &str) -> PyErr {
-    let message = format!("{file}: {error}");
+    of_file(error, format!("{file}: {error}"), file.to_owned())
+}
+
+/// A file that is not there, or cannot be read, in the words of a message.
+fn of_file(error: &FileProblem, message: String, file: String) -> PyErr {
     match error {
         FileProblem::NoSuchFile | FileProblem::BrokenLink { .. } => {
-            classes::DocumentNotFoundError::new_err((message, file.to_owned(), None::<String>))
+            classes::DocumentNotFoundError::new_err((message, file, None::<String>))
         }
-        _ => classes::DocumentUnreadableError::new_err((message, file.to_owned())),
+        _ => classes::DocumentUnreadableError::new_err((message, file)),
     }
 }
 
@@ -222,11 +226,8 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
     match error.problem() {
         TelemetryProblem::Table(error) => of_measurements(error, &file),
         TelemetryProblem::Document(error) => of_document(error, &[]),
-        TelemetryProblem::File(
-            grouser::document::file::FileProblem::NoSuchFile
-            | grouser::document::file::FileProblem::BrokenLink { .. },
-        ) => classes::DocumentNotFoundError::new_err((message, file, None::<String>)),
-        TelemetryProblem::File(_) | TelemetryProblem::Unreadable(_) => {
+        TelemetryProblem::File(error) => of_file(error, message, file),
+        TelemetryProblem::Unreadable(_) => {
             classes::DocumentUnreadableError::new_err((message, file))
         }
         _ => {
@@ -240,6 +241,7 @@ pub(crate) fn of_telemetry(error: &TelemetryError) -> PyErr {
     }
 }
 
+/// A folder of drives that cannot be read.
 pub(crate) fn of_drives(error: DriveFolderError) -> PyErr {
     let message = error.to_string();
     match error {

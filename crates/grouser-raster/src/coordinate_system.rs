@@ -33,6 +33,9 @@ pub(crate) const TEXT: u16 = 34737;
 /// The metre's code in the EPSG register.
 pub(crate) const METRE: u16 = 9001;
 
+/// The value of the key `GTModelTypeGeoKey` for systems of a projection.
+pub(crate) const PROJECTED_MODEL: u16 = 1;
+
 /// Keys of GeoTIFF 1.1 (OGC 19-008r4).
 pub(crate) mod key {
     pub(crate) const MODEL: u16 = 1024;
@@ -82,10 +85,8 @@ impl CoordinateSystem {
     pub fn of_text(text: &str) -> Self {
         /// A text that a key can hold [bytes].
         const LONGEST: usize = 60_000;
-        /// Codes of the standard's register.
-        const PROJECTED: u16 = 1;
         let mut keys = Keys::default();
-        keys.whole(key::MODEL, PROJECTED);
+        keys.whole(key::MODEL, PROJECTED_MODEL);
         if let Some(code) = code_of_text(text) {
             keys.whole(key::PROJECTED, code);
         } else if text.len() < LONGEST && !text.is_empty() {
@@ -121,12 +122,11 @@ impl CoordinateSystem {
         /// The Moon's radius [m] and inverse flattening (none): IAU 2015.
         const SPHERE: [f64; 2] = [1_737_400.0, 0.0];
         /// Codes of the standard's register.
-        const PROJECTED: u16 = 1;
         const AREAS: u16 = 1;
         const DEGREE: u16 = 9102;
         const STEREOGRAPHIC: u16 = 14;
         let mut keys = Keys::default();
-        keys.whole(key::MODEL, PROJECTED);
+        keys.whole(key::MODEL, PROJECTED_MODEL);
         keys.whole(key::POINTS_OR_AREAS, AREAS);
         keys.words(key::CITATION, name);
         keys.whole(key::GEODETIC, key::USER_DEFINED);
@@ -167,6 +167,11 @@ impl CoordinateSystem {
         self.number(key::PROJECTED).filter(|code| !matches!(*code, 0 | key::USER_DEFINED))
     }
 
+    /// That code as a name, such as `EPSG:32633`.
+    pub(crate) fn code_name(&self) -> Option<String> {
+        self.epsg().map(|code| format!("EPSG:{code}"))
+    }
+
     /// The member of a GeoJSON object that names the system, as GDAL writes it and reads it, with a
     /// comma behind it; nothing for a system without a code.
     #[must_use]
@@ -195,9 +200,7 @@ impl CoordinateSystem {
         };
         let mut own = own.into_iter().filter_map(|id| self.words(id)).map(of_list);
         let own = own.find(|name| !NAMELESS.contains(&name.to_lowercase().as_str()));
-        own.or_else(|| self.epsg().map(|code| format!("EPSG:{code}"))).unwrap_or_else(|| match self
-            .real(key::SEMI_MAJOR_AXIS)
-        {
+        own.or_else(|| self.code_name()).unwrap_or_else(|| match self.real(key::SEMI_MAJOR_AXIS) {
             Some(radius) => format!("a system without a name, on a body of radius {radius} m"),
             None if self.is_known() => "a system without a name".to_owned(),
             None => "not stated".to_owned(),
@@ -255,7 +258,7 @@ pub(crate) fn code_of(name: &str) -> Option<u16> {
 
 /// The code that a text has for its projected system: well-known text, or a name as above.
 pub(crate) fn code_of_text(text: &str) -> Option<u16> {
-    let projected = || wkt::part(text, &["PROJCS", "PROJCRS", "PROJECTEDCRS"]);
+    let projected = || wkt::part(text, &wkt::PROJECTED);
     code_of(text).or_else(|| wkt::epsg(projected()?))
 }
 

@@ -25,8 +25,8 @@ pub(crate) fn are_degrees(places: &Extent) -> bool {
 }
 
 /// Checks that the points of a grid without a system are not in degrees of longitude and latitude:
-/// those of whole tiles of a degree are nearer than a centimetre to each other, and far from 0. Source:
-/// ours.
+/// points of a tile of a degree, read as metres, are less than a centimetre apart and far from 0.
+/// Source: ours.
 ///
 /// # Errors
 /// [`Fault::PointsInDegrees`] if they are.

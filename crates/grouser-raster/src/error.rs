@@ -13,7 +13,7 @@ use crate::zones::key::{ZoneKey, listed};
 
 /// A file that cannot be used.
 #[derive(Debug, thiserror::Error)]
-#[error("{}: {fault}{}", file.display(), fault.hint(Some(file)).map_or_else(String::new, |it| format!("\nhint: {it}")))]
+#[error("{}: {fault}{}", file.display(), advice(fault, file))]
 pub struct RasterError {
     /// The file.
     pub file: PathBuf,
@@ -28,12 +28,17 @@ impl RasterError {
     }
 }
 
+/// The hint of a fault, as its error ends.
+fn advice(fault: &Fault, file: &Path) -> String {
+    fault.hint(Some(file)).map_or_else(String::new, |hint| format!("\nhint: {hint}"))
+}
+
 /// What is wrong inside of a file, and what helps.
 #[derive(Debug)]
 pub struct InnerFault {
     /// What is wrong.
     pub problem: String,
-    /// What to do about it, with the name of the file.
+    /// Makes the sentence of what to do about it from the name of the file.
     pub hint: Option<fn(&str) -> String>,
 }
 
@@ -318,7 +323,7 @@ pub enum Fault {
         name: String,
         /// The system of the map.
         map: String,
-        /// The same as PROJ has it.
+        /// The map's system as PROJ reads it, for the command.
         target: String,
         /// Whether the file has a grid.
         is_grid: bool,

@@ -16,7 +16,7 @@ impl Fault {
             | Self::Feature { flaw, .. }
             | Self::Area { flaw, .. }
             | Self::NoLine { flaw } => flaw.hint.map(|hint| hint(&named(file, "IN.geojson"))),
-            _ => self.of_grid(&named(file, "IN.tif")).or_else(|| self.of_places(file)),
+            _ => self.of_grid(&named(file, "IN.tif")).or_else(|| self.of_others(file)),
         }
     }
 
@@ -69,8 +69,8 @@ impl Fault {
         })
     }
 
-    /// What to do about places, and about files of any kind.
-    fn of_places(&self, file: Option<&Path>) -> Option<String> {
+    /// What to do about faults whose commands have no grid as input.
+    fn of_others(&self, file: Option<&Path>) -> Option<String> {
         const AGAIN: &str = "copy or download it again";
         const CODE: &str = "with the code of the map's system, or of the place's UTM zone where there \
                             is no map";

@@ -2,13 +2,13 @@
 
 use grouser_core::units::Vec2;
 
-use crate::advice::{self, MappedBody, Warp};
-use crate::coordinate_system::{CoordinateSystem, METRE, key};
+use crate::advice::{self, MappedBody};
+use crate::coordinate_system::{CoordinateSystem, METRE, PROJECTED_MODEL, key};
 use crate::error::Fault;
 use crate::length::{name_of_code, name_of_size};
 use crate::projection::Projection;
-use crate::remark::Remark;
-use crate::wkt::{inside, part, values};
+use crate::remark::{Remark, TOLD};
+use crate::wkt::{PROJECTED, inside, part, values};
 
 /// The middle of a map, and its cells, in units of its coordinates.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +22,8 @@ pub struct MapSite {
 }
 
 /// Checks a system of coordinates that a text describes (well-known text of the first or second
-/// edition, as rasterio and xarray have it; a code such as `EPSG:32633`, words of PROJ): projected, in metres, heights too, and about as long as
-/// the ground.
+/// edition, as rasterio and xarray have it; a code such as `EPSG:32633`, words of PROJ): projected,
+/// in metres, heights too, and about as long as the ground.
 ///
 /// ```
 /// use grouser_core::units::Vec2;
@@ -37,37 +37,43 @@ pub struct MapSite {
 /// # Errors
 /// [`Fault`] for degrees, other units, depths, and a map far larger or smaller than its ground.
 pub fn check_system(text: &str, site: MapSite) -> Result<Option<Remark>, Fault> {
-    let of_places = part(text, &PROJECTED_PARTS).or(part(text, &LOCAL_PARTS));
+    let projected = part(text, &PROJECTED);
+    let of_places = projected.or_else(|| part(text, &LOCAL));
     let is_cartesian = ["GEOCCS[", "Cartesian"].iter().any(|it| text.contains(it));
     if is_cartesian && of_places.is_none() {
         return Err(Fault::Geocentric);
     }
     check_heights(text)?;
     let projection = Projection::of_text(text);
-    let is_projected = projection.is_some() || part(text, &PROJECTED_PARTS).is_some();
+    let is_projected = projection.is_some() || projected.is_some();
     if !is_projected && part(text, &["GEOGCS", "GEOGCRS", "GEODCRS", "GEODETICCRS"]).is_some() {
-        let warp = advice::projection(site.middle, &MappedBody::Unknown, None);
-        return Err(Fault::Degrees { warp });
+        return Err(in_degrees(&MappedBody::Unknown, site));
     }
     // Of other systems nothing but the unit is known.
-    let unit = of_places.filter(|_| projection.is_none()).and_then(unit_of);
-    if let Some((name, size)) = unit.filter(|(_, size)| *size != 1.0) {
-        return Err(Fault::Unit { unit: name_of_size(size, name) });
+    let of_others = of_places.filter(|_| projection.is_none());
+    if let Some(unit) = of_others.and_then(foreign_unit_of) {
+        return Err(Fault::Unit { unit });
     }
     let name = text.split('"').nth(1).unwrap_or(text);
     check(projection.as_ref(), name, site)
 }
 
-/// What texts call systems of a projection, and those of a site of its own.
-const PROJECTED_PARTS: [&str; 3] = ["PROJCS", "PROJCRS", "PROJECTEDCRS"];
-const LOCAL_PARTS: [&str; 4] = ["LOCAL_CS", "LOCALCS", "ENGCRS", "ENGINEERINGCRS"];
+/// What texts call systems of a site of its own.
+const LOCAL: [&str; 4] = ["LOCAL_CS", "LOCALCS", "ENGCRS", "ENGINEERINGCRS"];
 
-/// The name and the length [m] of the unit that a system of places has.
-fn unit_of(system: &str) -> Option<(&str, f64)> {
+/// The fault of a map in degrees, with a projection of its body.
+fn in_degrees(body: &MappedBody, site: MapSite) -> Fault {
+    let size = body.degree().map(|degree| site.cell * degree);
+    Fault::Degrees { warp: advice::projection(site.middle, body, size) }
+}
+
+/// The unit that a text states of a system, if that is not the metre.
+fn foreign_unit_of(system: &str) -> Option<String> {
     const UNITS: [&str; 2] = ["UNIT", "LENGTHUNIT"];
     let of_axis = || inside(inside(system, &["AXIS"])?, &UNITS);
     let mut unit = values(inside(system, &UNITS).or_else(of_axis)?);
-    Some((unit.next()?, unit.next()?.parse().ok()?))
+    let (name, size) = (unit.next()?, unit.next()?.parse::<f64>().ok()?);
+    (size != 1.0).then(|| name_of_size(size, name))
 }
 
 /// Checks the system of heights that a text describes, if it does.
@@ -77,12 +83,7 @@ fn check_heights(text: &str) -> Result<(), Fault> {
     if [",down", ",DOWN", "\"Direction\",-1"].iter().any(|it| heights.contains(it)) {
         return Err(Fault::Depths);
     }
-    match unit_of(heights) {
-        Some((name, size)) if size != 1.0 => {
-            Err(Fault::HeightUnit { unit: name_of_size(size, name) })
-        }
-        _ => Ok(()),
-    }
+    foreign_unit_of(heights).map_or(Ok(()), |unit| Err(Fault::HeightUnit { unit }))
 }
 
 /// Checks the keys of a GeoTIFF likewise.
@@ -100,10 +101,8 @@ pub(crate) fn check_keys(
         return Err(Fault::Geocentric);
     }
     let has_degrees = model == Some(GEOGRAPHIC) || system.number(key::GEODETIC).is_some();
-    if model != Some(PROJECTED) && !is_projected && has_degrees {
-        let body = MappedBody::of_keys(system);
-        let size = body.degree().map(|degree| site.cell * degree);
-        return Err(Fault::Degrees { warp: advice::projection(site.middle, &body, size) });
+    if model != Some(PROJECTED_MODEL) && !is_projected && has_degrees {
+        return Err(in_degrees(&MappedBody::of_keys(system), site));
     }
     if let Some(unit) = foreign_unit(system) {
         return Err(Fault::Unit { unit });
@@ -156,22 +155,20 @@ fn check(
     name: &str,
     site: MapSite,
 ) -> Result<Option<Remark>, Fault> {
-    /// How far the scale may be from 1 anywhere on the map before a note says so, and at its middle
-    /// before the map is refused [-]: a slope of 20° is wrong by a tenth of a degree, and by one.
+    /// How far the scale may be from 1 at the middle of the map before it is refused [-]: a slope of
+    /// 20° is wrong by a degree.
     ///
     /// The scale changes by tan φ / R for a metre to the north on Mercator's map, and by half of the
     /// sine of the way from the middle over R on stereographic ones: by less than 0.5 % over maps
     /// of 10 km that are not refused, so that it is one number for most maps, and a range for those
     /// of hundreds of kilometres.
-    const TOLD: f64 = 0.005;
     const REFUSED: f64 = 0.05;
     let Some(projection) = projection else {
         return Ok(Some(Remark::UnknownScale { system: name.to_owned() }));
     };
     let body = MappedBody::of_axes(projection.axes());
     if projection.is_in_degrees() {
-        let size = body.degree().map(|degree| site.cell * degree);
-        return Err(Fault::Degrees { warp: advice::projection(site.middle, &body, size) });
+        return Err(in_degrees(&body, site));
     }
     if (projection.unit() - 1.0).abs() > 1e-9 {
         return Err(Fault::Unit { unit: name_of_size(projection.unit(), "") });
@@ -184,7 +181,7 @@ fn check(
     let off = |factors: [f64; 2]| (factors[0] - 1.0).abs().max((factors[1] - 1.0).abs());
     if off(factors) > REFUSED {
         let size = Some(site.cell / factors[1]);
-        let warp: Warp = advice::projection(place.map(f64::to_degrees), &body, size);
+        let warp = advice::projection(place.map(f64::to_degrees), &body, size);
         return Err(Fault::Scale { factors, warp });
     }
     let over_map = over_map(projection, site, factors);
@@ -202,8 +199,7 @@ fn over_map(projection: &Projection, site: MapSite, factors: [f64; 2]) -> [f64; 
     scales.fold(factors, |[least, most], [low, high]| [least.min(low), most.max(high)])
 }
 
-/// Values of the key `GTModelTypeGeoKey`.
-const PROJECTED: u16 = 1;
+/// Other values of the key `GTModelTypeGeoKey`.
 const GEOGRAPHIC: u16 = 2;
 const GEOCENTRIC: u16 = 3;
 

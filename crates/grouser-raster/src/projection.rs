@@ -23,7 +23,7 @@ impl Projection {
         by_method(system).and_then(|definition| Self::of(&definition)).or_else(of_text)
     }
 
-    /// The same as words of PROJ 4, of keys with a method and parameters.
+    /// The definition, in words of PROJ 4, of a system whose keys have a method and parameters.
     pub(crate) fn words_of(system: &CoordinateSystem) -> Option<String> {
         by_method(system).map(|words| words.split_whitespace().collect::<Vec<_>>().join(" "))
     }
@@ -132,8 +132,7 @@ impl CoordinateSystem {
     /// the words of PROJ; none where no formula is known.
     #[must_use]
     pub fn to_text(&self) -> Option<String> {
-        let of_code = self.epsg().map(|code| format!("EPSG:{code}"));
-        of_code.or_else(|| self.well_known_text()).or_else(|| Projection::words_of(self))
+        self.code_name().or_else(|| self.well_known_text()).or_else(|| Projection::words_of(self))
     }
 
     /// Whether two systems give a place the same coordinates; nothing where that is not known.

@@ -93,11 +93,12 @@ pub(crate) fn scale(factors: [f64; 2]) -> String {
     }
 }
 
+/// A difference of scales that is told [-]: slopes of 20° are wrong by a tenth of a degree.
+pub(crate) const TOLD: f64 = 0.005;
+
 /// What a scale is in other places of the map, where that is something else.
 fn elsewhere(factors: [f64; 2], over_map: [f64; 2]) -> String {
-    /// A difference that slopes of 20° show by a tenth of a degree [-].
-    const SHOWN: f64 = 0.005;
-    let is_like = (0..2).all(|end| (factors[end] - over_map[end]).abs() < SHOWN);
+    let is_like = (0..2).all(|end| (factors[end] - over_map[end]).abs() < TOLD);
     let [least, most] = over_map;
     if is_like { String::new() } else { format!(", and {least:.3} to {most:.3} m over all of it") }
 }

@@ -1,5 +1,8 @@
 //! Parts of well-known texts of coordinate systems, of the first and second edition.
 
+/// What texts call systems of a projection.
+pub(crate) const PROJECTED: [&str; 3] = ["PROJCS", "PROJCRS", "PROJECTEDCRS"];
+
 /// The first part of a text with one of these names, brackets and all: `UNIT["metre",1]`.
 pub(crate) fn part<'t>(text: &'t str, names: &[&str]) -> Option<&'t str> {
     parts(text).find(|(_, part)| is_called(part, names)).map(|(_, part)| part)

@@ -48,7 +48,7 @@ pub struct MapFrame<'m> {
 }
 
 impl Raster {
-    /// The map that places of other files may be for.
+    /// The frame of this map, against which places of other files are checked.
     #[must_use]
     pub fn frame(&self) -> MapFrame<'_> {
         MapFrame { system: Some(&self.coordinates), extent: self.grid.extent() }
@@ -89,11 +89,9 @@ impl PlacesSystem {
         match own.as_ref().and_then(|own| own.is_same(map)) {
             Some(true) => Ok(None),
             Some(false) => {
-                let map_name = map.epsg().map_or(of_map, |code| format!("EPSG:{code}"));
+                let map_name = map.code_name().unwrap_or(of_map);
                 let target = map.to_text().unwrap_or_else(|| "SYSTEM_OF_THE_MAP".to_owned());
-                let name = own
-                    .and_then(|own| own.epsg())
-                    .map_or(name.unwrap_or_default(), |code| format!("EPSG:{code}"));
+                let name = own.and_then(|own| own.code_name()).or(name).unwrap_or_default();
                 let is_grid = matches!(self, Self::OfGrid(_));
                 Err(Fault::OtherSystem { name, map: map_name, target, is_grid })
             }

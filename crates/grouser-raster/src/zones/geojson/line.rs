@@ -6,10 +6,10 @@ use grouser_core::terrain::Extent;
 use grouser_core::units::Vec2;
 
 use super::syntax::{Coordinates, Feature, Geometry, Root};
-use super::{bytes_of, compare_system, features_in, root_of, starts_so};
+use super::{bytes_of, features_in, root_of, starts_so};
 use crate::error::{Fault, InnerFault, RasterError};
 use crate::remark::Remark;
-use crate::zones::places::{MapFrame, check_places_on, shown};
+use crate::zones::places::{MapFrame, PlacesSystem, check_places_on, shown};
 
 /// Reads the line of a file: the places of its only `LineString`, which may stand by itself or in a
 /// Feature or FeatureCollection. Heights in it are passed over, and so are properties. Also what is
@@ -25,9 +25,8 @@ pub fn read_line_string(
     map: &MapFrame<'_>,
 ) -> Result<(Vec<Vec2>, Option<Remark>), RasterError> {
     let line = || {
-        let bytes = bytes_of(path)?;
-        let line = decode_line_string(&bytes)?;
-        let remark = map.system.map_or(Ok(None), |system| compare_system(&bytes, system))?;
+        let (line, system) = line_in(&bytes_of(path)?)?;
+        let remark = map.system.map_or(Ok(None), |of_map| system.compare(of_map))?;
         if let Some(places) = Extent::around(&line) {
             check_places_on(&map.extent, &places)?;
         }
@@ -49,11 +48,17 @@ pub fn read_line_string(
 /// # Errors
 /// [`Fault`] if there is no line, several, other geometries or invalid places.
 pub fn decode_line_string(bytes: &[u8]) -> Result<Vec<Vec2>, Fault> {
+    line_in(bytes).map(|(line, _)| line)
+}
+
+/// The line, and the system that its places are in.
+fn line_in(bytes: &[u8]) -> Result<(Vec<Vec2>, PlacesSystem), Fault> {
     if !starts_so(bytes) {
         let problem = "it does not begin with an object".to_owned();
         return Err(Fault::GeoJson { problem });
     }
     let root = root_of(bytes)?;
+    let system = PlacesSystem::of_root(&root);
     let no_line = |flaw: InnerFault| Fault::NoLine { flaw };
     let mut features = match root.kind.as_str() {
         "FeatureCollection" | "Feature" => features_in(root)?,
@@ -61,7 +66,10 @@ pub fn decode_line_string(bytes: &[u8]) -> Result<Vec<Vec2>, Fault> {
     };
     match features.len() {
         0 => Err(no_line("it has no feature".to_owned().into())),
-        1 => line_of(features.remove(0).geometry).map_err(|it| no_line(it.into())),
+        1 => match line_of(features.remove(0).geometry) {
+            Ok(line) => Ok((line, system)),
+            Err(problem) => Err(no_line(problem.into())),
+        },
         count => Err(no_line(InnerFault::with_hint(
             format!("it has {count} features, and one line is one way"),
             |file| format!("ogr2ogr -where CONDITION OUT.geojson {file} keeps one of them"),
