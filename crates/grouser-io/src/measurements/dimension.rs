@@ -73,24 +73,30 @@ const UNITS: [(&str, Dimension, f64); 42] = [
 
 /// Whether a name is that of a unit.
 pub(super) fn is_unit(name: &str) -> bool {
-    UNITS.iter().any(|(unit, ..)| *unit == name)
+    named(name).next().is_some()
+}
+
+/// The units that a name may mean. Products may be written with a dot of any kind, a star, a space or
+/// a hyphen, in either order: `kgf·cm`, `kgf cm`, `cm.kgf`.
+fn named(name: &str) -> impl Iterator<Item = &'static (&'static str, Dimension, f64)> {
+    let dotted = name.replace(['·', '⋅', '*', ' ', '-'], ".");
+    let turned = dotted.split_once('.').map(|(first, second)| format!("{second}.{first}"));
+    let name = name.to_owned();
+    let is_it = move |unit: &str| unit == name || unit == dotted || turned.as_deref() == Some(unit);
+    UNITS.iter().filter(move |(unit, ..)| is_it(unit))
 }
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Dimension {
-    /// The size of a unit in SI. Products may be written with a dot of any kind, a star, a space or
-    /// a hyphen, in either order: `kgf·cm`, `kgf cm`, `cm.kgf`.
+    /// The size of a unit in SI, however its product is written.
     ///
     /// # Errors
     /// The names of the units that measure this, where the name is not one of them.
     pub fn size_of(self, unit: &str) -> Result<f64, Vec<&'static str>> {
-        let fitting = UNITS.iter().filter(|(_, of, _)| *of == self);
-        let dotted = unit.replace(['·', '⋅', '*', ' ', '-'], ".");
-        let turned = dotted.split_once('.').map(|(first, second)| format!("{second}.{first}"));
-        let is_it = |name: &str| name == unit || name == dotted || turned.as_deref() == Some(name);
-        let found = fitting.clone().find(|(name, ..)| is_it(name));
-        found.map(|(_, _, size)| *size).ok_or_else(|| fitting.map(|(name, ..)| *name).collect())
+        let is_ours = |(_, of, _): &&(&str, Self, f64)| *of == self;
+        let fitting = || UNITS.iter().filter(is_ours).map(|(name, ..)| *name).collect();
+        named(unit).find(is_ours).map(|(_, _, size)| *size).ok_or_else(fitting)
     }
 }
 

@@ -138,9 +138,7 @@ impl Mapping {
             None => (1.0, theirs.trim()),
         };
         let (theirs, size) = match theirs.rsplit_once(':') {
-            Some((name, unit)) => {
-                (name.trim(), size_of(unit.trim(), column)? / column.unit.to_si(1.0))
-            }
+            Some((name, unit)) => (name.trim(), factor_of(unit.trim(), column)?),
             None => (theirs, own_unit(theirs, column)?),
         };
         if theirs.is_empty() {
@@ -154,16 +152,17 @@ impl Mapping {
 fn own_unit(theirs: &str, column: &Column) -> Result<f64, String> {
     let inside = theirs.strip_suffix([']', ')']).and_then(|it| it.rsplit_once(['[', '(']));
     let unit = inside.map(|(_, unit)| unit.trim()).filter(|_| dimension(column) != Dimension::Text);
-    match unit.map(|unit| (size_of(unit, column), is_unit(unit))) {
-        Some((Ok(size), _)) => Ok(size / column.unit.to_si(1.0)),
+    match unit.map(|unit| (factor_of(unit, column), is_unit(unit))) {
+        Some((Ok(factor), _)) => Ok(factor),
         Some((Err(other), true)) => Err(other),
         _ => Ok(1.0),
     }
 }
 
-/// The size of a unit in SI, if it measures what the column holds.
-fn size_of(unit: &str, column: &Column) -> Result<f64, String> {
-    dimension(column).size_of(unit).map_err(|fitting| {
+/// The factor from a unit to ours, if it measures what the column holds.
+fn factor_of(unit: &str, column: &Column) -> Result<f64, String> {
+    let size = dimension(column).size_of(unit);
+    size.map(|size| size / column.unit.to_si(1.0)).map_err(|fitting| {
         if fitting.is_empty() {
             format!("`{}` is taken as it is and has no unit", column.name)
         } else {
@@ -383,7 +382,10 @@ mod tests {
         assert_eq!(factor("load_n=W [kgf]"), Ok(9.806_65));
         assert_eq!(factor("torque_nm=-T (kgf·cm)"), Ok(-9.806_65e-2));
         assert_eq!(factor("load_n=W [scale 2]"), Ok(1.0));
-        assert!(factor("load_n=T [Nm]").is_err_and(|it| it.contains("'Nm' is not a unit")));
+        for unit in ["Nm", "N·m", "kgf·cm", "cm-kgf"] {
+            let refused = factor(&format!("load_n=T [{unit}]"));
+            assert!(refused.is_err_and(|it| it.contains("is not a unit for `load_n`")), "{unit}");
+        }
         let mapping = Mapping::parse("load_n=W").unwrap();
         let error = import("a.csv", text.as_bytes(), &[mapping], &layout).unwrap_err();
         assert_eq!(error.line(), Some(5));
