@@ -32,6 +32,9 @@ pub use shapes::Meshes;
 use self::rover::Found;
 use self::tree::Robot;
 
+/// The largest file of URDF [bytes]: meshes stand in files of their own.
+pub const LARGEST_FILE: u64 = 16 << 20;
+
 /// A rover that was found in URDF.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UrdfRover {

@@ -9,14 +9,11 @@ use pyo3::prelude::*;
 use crate::descriptions::Document;
 use crate::errors;
 
-/// The largest file [bytes]: meshes stand in files of their own.
-const LARGEST: u64 = 16 << 20;
-
 /// A rover's document of a file of URDF.
 ///
-/// * `named`: patterns of links that are wheels, and of those that are none
+/// * `named`: patterns of the links that are wheels, and of links that roll and are not driven
 /// * `sizes`: radius and width of the wheels [m]
-/// * `has`: whether a differential joins the rockers, and whether the rover is rigid
+/// * `has`: a differential between the rockers; a rigid rover
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how a path comes from Python")]
 pub(crate) fn rover_of_urdf(
@@ -27,7 +24,8 @@ pub(crate) fn rover_of_urdf(
     has: [bool; 2],
 ) -> PyResult<Document> {
     let name = path.display().to_string();
-    let bytes = file::read(&path, LARGEST).map_err(|error| errors::unread(&error, &name))?;
+    let bytes =
+        file::read(&path, urdf::LARGEST_FILE).map_err(|error| errors::unread(&error, &name))?;
     let [wheels, passive] = named;
     let options = UrdfOptions {
         wheels,
@@ -47,14 +45,8 @@ pub(crate) fn rover_of_urdf(
 }
 
 fn along(forward: &str) -> PyResult<Forward> {
-    match forward {
-        "x" => Ok(Forward::X),
-        "y" => Ok(Forward::Y),
-        "-x" => Ok(Forward::MinusX),
-        "-y" => Ok(Forward::MinusY),
-        _ => {
-            let message = format!("forward is \"{forward}\", it must be x, y, -x or -y");
-            Err(errors::parameter(message, "forward", None, "x, y, -x or -y"))
-        }
-    }
+    Forward::named(forward).ok_or_else(|| {
+        let message = format!("forward is \"{forward}\", it must be x, y, -x or -y");
+        errors::parameter(message, "forward", None, "x, y, -x or -y")
+    })
 }

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::PossibleValuesParser;
 use grouser::document::urdf::Forward;
 
 #[derive(Debug, Args)]
@@ -32,8 +33,8 @@ pub(crate) struct ImportUrdfArgs {
     #[arg(long, value_name = "M", value_parser = parse_size, allow_negative_numbers = true)]
     pub(crate) wheel_width_m: Option<f64>,
     /// Which way of the root link is the rover's way forward.
-    #[arg(long, value_name = "AXIS", default_value = "x", allow_hyphen_values = true)]
-    pub(crate) forward: ForwardChoice,
+    #[arg(long, value_name = "AXIS", default_value = "x", allow_hyphen_values = true, value_parser = PossibleValuesParser::new(Forward::ALL.map(|(name, _)| name)))]
+    pub(crate) forward: String,
     /// A differential joins the rockers of both sides, where no `<mimic>` says so.
     #[arg(long, conflicts_with = "rigid")]
     pub(crate) differential: bool,
@@ -52,26 +53,4 @@ pub(crate) struct ImportUrdfArgs {
 fn parse_size(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|it| *it > 0.0 && *it <= 10.0);
     number.ok_or_else(|| "it is no number above 0 and up to 10".to_owned())
-}
-
-/// A way along an axis.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum ForwardChoice {
-    X,
-    Y,
-    #[value(name = "-x")]
-    MinusX,
-    #[value(name = "-y")]
-    MinusY,
-}
-
-impl From<ForwardChoice> for Forward {
-    fn from(choice: ForwardChoice) -> Self {
-        match choice {
-            ForwardChoice::X => Self::X,
-            ForwardChoice::Y => Self::Y,
-            ForwardChoice::MinusX => Self::MinusX,
-            ForwardChoice::MinusY => Self::MinusY,
-        }
-    }
 }

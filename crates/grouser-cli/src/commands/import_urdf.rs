@@ -1,7 +1,7 @@
 //! `grouser import-urdf`: a rover's document of the robot that ROS knows.
 
 use grouser::document::reading::four_digits;
-use grouser::document::urdf::{self, FoundWheel, UrdfError, UrdfOptions};
+use grouser::document::urdf::{self, Forward, FoundWheel, UrdfError, UrdfOptions};
 use grouser::document::{self, Overrides, Source, escape};
 
 use crate::args::ImportUrdfArgs;
@@ -10,16 +10,14 @@ use crate::output::rows::aligned;
 use crate::output::text::Text;
 use crate::output::{self, file};
 
-/// The largest file [bytes]: meshes stand in files of their own.
-const LARGEST: u64 = 16 << 20;
-
 pub(crate) fn run(args: &ImportUrdfArgs) -> Result<(), Failure> {
     if let Some(out) = &args.out {
         file::check_new(out, args.force)?;
     }
     let name = escape::path(&args.file);
     let refused = |what: String| Failure::Usage(format!("{name}: {what}"));
-    let bytes = document::file::read(&args.file, LARGEST).map_err(|it| refused(it.to_string()))?;
+    let bytes = document::file::read(&args.file, urdf::LARGEST_FILE)
+        .map_err(|it| refused(it.to_string()))?;
     let found = urdf::import(bytes, &options(args), &urdf::meshes_beside(&args.file))
         .map_err(|error| refused(escape::visible(&with_flags(&error)).into_owned()))?;
     let source = Source::text(format!("the rover of {name}"), found.toml.clone());
@@ -38,7 +36,7 @@ fn options(args: &ImportUrdfArgs) -> UrdfOptions {
         passive: args.passive.clone(),
         wheel_radius: args.wheel_radius_m,
         wheel_width: args.wheel_width_m,
-        forward: args.forward.into(),
+        forward: Forward::named(&args.forward).unwrap_or_default(),
         has_differential: args.differential,
         is_rigid: args.rigid,
     }

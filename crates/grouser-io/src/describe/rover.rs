@@ -1,5 +1,7 @@
 //! `rover/1`: a body and its wheels.
 
+use std::ops::RangeInclusive;
+
 use super::super::field::{
     At, DEG, DEG_S, Each, Field, Form, Inner, KG, KG_M2, M, Reach, Table, list, number, numbers,
     part, positive, table, text, word, words,
@@ -180,10 +182,13 @@ const fn steering_rate<T>(doc: &'static str, reach: Reach<T>) -> Field<T> {
     positive("steering_rate_deg_s", DEG_S, 3600.0, doc, reach)
 }
 
+/// Masses of bodies, and of wheels with their motors [kg].
+pub(crate) const MASS: RangeInclusive<f64> = 0.01..=1e5;
+
 static BODY: Table<Body> = Table {
     doc: "The body.",
     fields: &[
-        number("mass_kg", KG, 0.01..=1e5, "Mass", |body| Some(&mut body.mass)),
+        number("mass_kg", KG, MASS, "Mass", |body| Some(&mut body.mass)),
         table(
             "inertia_kg_m2",
             "Moments of inertia about its centre of mass [kg·m²].",
@@ -194,7 +199,7 @@ static BODY: Table<Body> = Table {
 
 /// Mass of a wheel with its motor.
 const fn unit_mass<T>(doc: &'static str, reach: Reach<T>) -> Field<T> {
-    number("mass_kg", KG, 0.01..=1e5, doc, reach)
+    number("mass_kg", KG, MASS, doc, reach)
 }
 
 /// Inertia of a wheel with its motor.

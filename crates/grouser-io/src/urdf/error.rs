@@ -71,7 +71,7 @@ pub enum UrdfError {
         links: String,
         /// How many roll about axes along the rover.
         along: usize,
-        /// Those that roll about axes neither along nor across it.
+        /// Links that roll about axes neither along nor across the rover.
         askew: Vec<String>,
     },
     /// Sprockets and rollers of tracks.
@@ -80,9 +80,9 @@ pub enum UrdfError {
          {rollers} roll without end in pairs; tracks and legs are not known here, wheels are"
     )]
     Tracks {
-        /// What is on the ground.
+        /// Names of the links that roll on the ground.
         wheels: String,
-        /// What else rolls.
+        /// Names of the links that roll above them, in pairs.
         rollers: String,
     },
     /// Fewer wheels than a rover stands on.

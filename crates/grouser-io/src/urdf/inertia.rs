@@ -39,6 +39,18 @@ impl Together {
     pub(super) fn inertia_about(&self, point: Vector3<f64>) -> Matrix3<f64> {
         self.inertia + parallel_axis(self.mass, point - self.centre)
     }
+
+    /// Why the inertia is that of no body, in words.
+    pub(super) fn flaw(&self) -> Option<&'static str> {
+        let moments = self.inertia.diagonal();
+        if self.inertia.norm() == 0.0 {
+            return Some("is not stated");
+        }
+        let (least, most) = (moments.min(), moments.max());
+        // A flat body has both alike.
+        let is_of_a_body = least > 0.0 && most <= (moments.sum() - most) * (1.0 + 1e-9);
+        (!is_of_a_body).then_some("is that of no body (a moment is above the two others together)")
+    }
 }
 
 /// What a mass away from a point adds to the inertia about it (Huygens and Steiner).
@@ -75,9 +87,9 @@ pub(super) fn placeholders<'a>(
         .into_iter()
         .collect();
     let mut others = wheels.filter(|(_, wheel, radius)| {
-        // What is not stated is estimated, and said so.
-        let is_stated = wheel.inertia.norm() > 0.0;
-        is_stated && !is_credible(gyration(wheel), LEAST_OF_WHEEL * radius, 1.5 * radius)
+        // What is that of no body is estimated, and said so.
+        wheel.flaw().is_none()
+            && !is_credible(gyration(wheel), LEAST_OF_WHEEL * radius, 1.5 * radius)
     });
     if let Some((name, wheel, radius)) = others.next() {
         let more = match others.count() {

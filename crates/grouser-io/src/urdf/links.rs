@@ -111,9 +111,8 @@ fn rim(
 /// Whether a joint between a wheel and the body cannot turn: its limits are one angle. Where a
 /// caller speaks of rockers, such limits are placeholders.
 fn is_locked(robot: &Robot, link: usize, options: &UrdfOptions) -> bool {
-    let limits = robot.links[link].joint.as_ref().and_then(|joint| joint.limits);
     let is_hinge = options.has_differential && is_across(robot, link);
-    !is_hinge && limits.is_some_and(|[low, high]| high <= low)
+    !is_hinge && robot.links[link].limits().is_some_and(|[low, high]| high <= low)
 }
 
 /// Says that what slides between a wheel and the body, or is locked, is taken as it stands.
@@ -198,13 +197,11 @@ fn guessed(
     found.retain(|it| !robot.links[it.link].shapes.is_empty() || options.wheel_radius.is_some());
     let carrying = carrying(robot, &found);
     found.retain(|it| !carrying[it.link]);
-    let name = |link: usize| &*robot.links[link].name;
-    let names_of = |all: &[Rolling]| all.iter().map(|it| name(it.link)).collect::<Vec<_>>();
     let (casters, found): (Vec<_>, Vec<_>) = found.into_iter().partition(|it| is_caster(robot, it));
     if !casters.is_empty() {
-        let names = names_of(&casters).join(", ");
         notes.push(format!(
-            "casters, by their names or as they trail, and no driven wheels: {names}"
+            "casters, by their names or as they trail, and no driven wheels: {}",
+            names(robot, &casters)
         ));
     }
     let in_pairs = in_pairs(&on_ground(&found));
@@ -213,21 +210,25 @@ fn guessed(
         return Err(UrdfError::NoWheels {
             links: link_names(robot),
             along: rolling(is_along).len(),
-            askew: askew.into_iter().map(|it| name(it).to_owned()).collect(),
+            askew: askew.into_iter().map(|it| robot.links[it].name.clone()).collect(),
         });
     }
-    check_tracks(robot, &found, &in_pairs)?;
-    let names = names_of(&in_pairs);
+    let is_other = |it: &&Rolling| in_pairs.iter().all(|wheel| wheel.link != it.link);
+    let others: Vec<Rolling> = found.iter().filter(is_other).cloned().collect();
+    check_tracks(robot, &others, &in_pairs)?;
     notes.push(format!(
         "wheels: {}, which roll about axes across the rover, reach the ground and come in pairs",
-        names.join(", ")
+        names(robot, &in_pairs)
     ));
-    let others: Vec<&str> =
-        found.iter().map(|it| name(it.link)).filter(|it| !names.contains(it)).collect();
     if !others.is_empty() {
-        notes.push(format!("not taken as wheels, though they roll: {}", others.join(", ")));
+        notes.push(format!("not taken as wheels, though they roll: {}", names(robot, &others)));
     }
     Ok(in_pairs.iter().map(|it| it.link).collect())
+}
+
+/// Names of links that roll, for sentences.
+fn names(robot: &Robot, all: &[Rolling]) -> String {
+    all.iter().map(|it| &*robot.links[it.link].name).collect::<Vec<_>>().join(", ")
 }
 
 /// Whether each link carries one of some that roll, as rockers, arms and legs do.
@@ -257,19 +258,16 @@ fn is_caster(robot: &Robot, wheel: &Rolling) -> bool {
 }
 
 /// Refuses tracks: above the wheels on the ground their sprockets and rollers roll in pairs.
-fn check_tracks(robot: &Robot, found: &[Rolling], wheels: &[Rolling]) -> Result<(), UrdfError> {
+///
+/// * `others`: what rolls and is no wheel
+fn check_tracks(robot: &Robot, others: &[Rolling], wheels: &[Rolling]) -> Result<(), UrdfError> {
     /// The fewest that look like tracks. Source: ours; a sprocket and an idler on each side.
     const LEAST: usize = 4;
-    let is_above = |it: &&Rolling| wheels.iter().all(|wheel| wheel.link != it.link);
-    let above: Vec<Rolling> = found.iter().filter(is_above).cloned().collect();
-    let rollers = in_pairs(&above);
+    let rollers = in_pairs(others);
     if rollers.len() < LEAST {
         return Ok(());
     }
-    let names = |all: &[Rolling]| {
-        all.iter().map(|it| robot.links[it.link].name.clone()).collect::<Vec<_>>().join(", ")
-    };
-    Err(UrdfError::Tracks { wheels: names(wheels), rollers: names(&rollers) })
+    Err(UrdfError::Tracks { wheels: names(robot, wheels), rollers: names(robot, &rollers) })
 }
 
 /// A link that rolls about an axis across the rover.
@@ -329,7 +327,7 @@ fn in_pairs(found: &[Rolling]) -> Vec<Rolling> {
 
 /// Whether a link rolls: without end, or with limits of some turns.
 fn rolls(robot: &Robot, link: usize) -> bool {
-    let limits = robot.links[link].joint.as_ref().and_then(|joint| joint.limits);
+    let limits = robot.links[link].limits();
     match kind(robot, link) {
         "continuous" => true,
         "revolute" => limits.is_some_and(|[low, high]| high - low > 4.0 * std::f64::consts::PI),

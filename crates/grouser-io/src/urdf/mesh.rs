@@ -20,14 +20,14 @@ fn places(urdf: &Path, mesh: &str) -> Vec<PathBuf> {
     /// How far above.
     const ABOVE: usize = 4;
     let mesh = mesh.strip_prefix("file://").unwrap_or(mesh);
-    // What xacro did not expand, and simulators do.
+    // `$(find PACKAGE)/…`, which simulators expand where xacro did not.
     let found = mesh.strip_prefix("$(find ").map(|it| it.replacen(')', "", 1));
     let mesh = found.map_or(mesh.to_owned(), |it| format!("package://{it}"));
     let mesh = &*mesh;
     let in_package = ["package://", "model://"].iter().find_map(|it| mesh.strip_prefix(it));
     let whole = in_package.unwrap_or(mesh);
     let within = in_package.and_then(|it| it.split_once('/')).map(|(_, within)| within);
-    // The folders above one that is open have no names in its path.
+    // A relative path does not name the folders above the current one.
     let urdf = std::path::absolute(urdf).unwrap_or(urdf.to_owned());
     let folder = urdf.parent().unwrap_or(Path::new(""));
     let above = folder.ancestors().take(ABOVE);
@@ -137,7 +137,8 @@ fn placed(element: Node<'_, '_>) -> Option<Matrix4<f64>> {
     nodes.map(own).try_fold(Matrix4::<f64>::identity(), |inner, outer| Some(outer? * inner))
 }
 
-/// The transform that an element is; none of a kind that is not read, or with other numbers.
+/// The transform of a child of a node: the identity for other elements, and none for a `lookat`, a
+/// `skew` and malformed numbers.
 fn transform(node: Node<'_, '_>) -> Option<Matrix4<f64>> {
     let tag = node.tag_name().name();
     if !["matrix", "translate", "rotate", "scale", "lookat", "skew"].contains(&tag) {

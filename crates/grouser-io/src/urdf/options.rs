@@ -38,6 +38,16 @@ pub enum Forward {
 }
 
 impl Forward {
+    /// Every way, with its name.
+    pub const ALL: [(&str, Self); 4] =
+        [("x", Self::X), ("y", Self::Y), ("-x", Self::MinusX), ("-y", Self::MinusY)];
+
+    /// The way of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|(own, _)| *own == name).map(|(_, way)| way)
+    }
+
     /// The root link's frame in the rover's, which has x forward.
     pub(super) fn turned(self) -> Isometry3<f64> {
         let quarters = match self {

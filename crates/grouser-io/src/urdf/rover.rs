@@ -13,6 +13,7 @@ use super::options::UrdfOptions;
 use super::shapes::Meshes;
 use super::suspension::Suspension;
 use super::tree::Robot;
+use crate::describe::rover::MASS;
 use crate::reading::four_digits;
 
 /// A rover that was found.
@@ -77,7 +78,7 @@ impl Found {
             .map(|wheel| mount(robot, wheel, &body, &mut notes))
             .collect::<Result<Vec<_>, _>>()?;
         let mut body = body;
-        if let Some(why) = is_no_inertia(&body) {
+        if let Some(why) = body.flaw() {
             body.inertia = of_box(&body, &wheels);
             notes.push(format!("the body's inertia {why}: it is taken as that of a uniform box"));
         }
@@ -150,23 +151,11 @@ impl Unit {
 
 /// Checks a mass [kg] by what documents have.
 fn check_mass(what: String, mass: f64) -> Result<(), UrdfError> {
-    if (0.01..=1e5).contains(&mass) {
+    if MASS.contains(&mass) {
         return Ok(());
     }
     let (written, expected) = (shown(mass), "0.01 to 100000 kg");
     Err(UrdfError::Number { what, attribute: "mass", written, expected })
-}
-
-/// Why an inertia is that of no body, in words.
-fn is_no_inertia(it: &Together) -> Option<&'static str> {
-    let [x, y, z] = diagonal(&it.inertia);
-    if it.inertia.norm() == 0.0 {
-        return Some("is not stated");
-    }
-    let most = x.max(y).max(z);
-    // A flat body has both alike.
-    let is_of_a_body = x.min(y).min(z) > 0.0 && most <= (x + y + z - most) * (1.0 + 1e-9);
-    (!is_of_a_body).then_some("is that of no body (a moment is above the two others together)")
 }
 
 /// The inertia of a uniform cylinder [kg m²].
@@ -193,14 +182,17 @@ fn level(wheels: &mut [Wheel]) -> Option<String> {
     })
 }
 
+/// The least and the largest coordinate of the wheels' centres along an axis [m].
+fn ends(wheels: &[Wheel], axis: usize) -> [f64; 2] {
+    let places = wheels.iter().map(|it| it.centre[axis]);
+    places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| [low.min(it), high.max(it)])
+}
+
 /// The inertia of a uniform box between the wheels, as high as half a wheel base [kg m²].
 fn of_box(body: &Together, wheels: &[Wheel]) -> Matrix3<f64> {
     let over = |axis: usize| {
-        let places = wheels.iter().map(|it| it.centre[axis]);
-        let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {
-            [low.min(it), high.max(it)]
-        });
-        ends[1] - ends[0]
+        let [low, high] = ends(wheels, axis);
+        high - low
     };
     let (length, width) = (over(0), over(1));
     let height = 0.5 * length;
@@ -230,12 +222,8 @@ fn doubts(robot: &Robot, wheels: &[Wheel], body: &Together) -> Vec<String> {
 fn lopsided(wheels: &[Wheel], body: &Together) -> Option<String> {
     /// Over the distance between the sides, as far as robots are symmetric [-]. Source: ours.
     const ASIDE: f64 = 0.1;
-    let ends = |axis: usize| {
-        let places = wheels.iter().map(|it| it.centre[axis] - body.centre[axis]);
-        places
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| [low.min(it), high.max(it)])
-    };
-    let ([rear, front], [right, left]) = (ends(0), ends(1));
+    let from_body = |axis: usize| ends(wheels, axis).map(|it| it - body.centre[axis]);
+    let ([rear, front], [right, left]) = (from_body(0), from_body(1));
     let middle = 0.5 * (left + right);
     if rear > 0.0 || front < 0.0 {
         let which = if rear > 0.0 { "behind" } else { "before" };
@@ -289,7 +277,7 @@ fn mount(
     }
     check_mass(format!("link {name}, a wheel"), mass)?;
     let steering = wheel.steered.map(|link| {
-        let limits = robot.links[link].joint.as_ref().and_then(|joint| joint.limits);
+        let limits = robot.links[link].limits();
         let axis = robot.links[link].pivot() - wheel.centre;
         // A joint without limits turns as far as wheels are steered at all.
         let limit = limits.map_or(FRAC_PI_2, |[lower, upper]| {
@@ -309,7 +297,7 @@ fn mount(
     // Zero is at an end of what it turns: no rover steers so.
     let steering = steering.filter(|(limit, _)| *limit > 0.0);
     let mut inertia = diagonal(&together.inertia_about(wheel.centre));
-    if let Some(why) = is_no_inertia(&together) {
+    if let Some(why) = together.flaw() {
         inertia = of_cylinder(together.mass, wheel);
         notes.push(format!(
             "link {name}: its inertia {why}: it is taken as that of a uniform cylinder"

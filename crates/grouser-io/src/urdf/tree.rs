@@ -132,6 +132,11 @@ impl Link {
     pub(super) fn axis(&self) -> Option<Vector3<f64>> {
         Some(self.frame.rotation * self.joint.as_ref()?.axis)
     }
+
+    /// How far its joint turns [rad], where that is stated.
+    pub(super) fn limits(&self) -> Option<[f64; 2]> {
+        self.joint.as_ref()?.limits
+    }
 }
 
 fn is_xacro(namespace: &str) -> bool {
@@ -271,11 +276,11 @@ fn joint(node: Node<'_, '_>) -> Result<Joint, UrdfError> {
 fn limits(node: Node<'_, '_>, what: &str) -> Result<Option<[f64; 2]>, UrdfError> {
     /// More turns than a joint is led through [rad].
     const NO_END: f64 = 1e6;
-    let is_endless = |name| {
+    let endless = |name| {
         let end = node.attribute(name).and_then(|it| it.trim().parse::<f64>().ok());
         end.filter(|it| it.abs() >= NO_END).map(|it| NO_END.copysign(it))
     };
-    let end = |name| match is_endless(name) {
+    let end = |name| match endless(name) {
         Some(end) => Ok(end),
         None if node.has_attribute(name) => number(node, what, name, |_| true, "an angle in rad"),
         None => Ok(0.0),

@@ -17,13 +17,22 @@ pub(super) fn attribute<'a>(
     node.attribute(name).ok_or_else(|| UrdfError::Lacks { what: what.to_owned(), lacks: name })
 }
 
-/// What is expected: where xacro's expressions stand, what writes their values.
-fn or_xacro(written: &str, expected: &'static str) -> &'static str {
+/// The error of a text that is not what is expected; of an expression of xacro it names the program
+/// that expands it.
+fn not_expected(
+    what: &str,
+    attribute: &'static str,
+    written: &str,
+    expected: &'static str,
+) -> UrdfError {
+    const XACRO: &str =
+        "a number\nhint: that is xacro: xacro FILE > FILE.urdf writes numbers for ${…} and $(…)";
     let is_expression = written.contains("${") || written.contains("$(");
-    if is_expression {
-        "a number\nhint: that is xacro: xacro FILE > FILE.urdf writes numbers for ${…} and $(…)"
-    } else {
-        expected
+    UrdfError::Number {
+        what: what.to_owned(),
+        attribute,
+        written: written.chars().take(40).collect(),
+        expected: if is_expression { XACRO } else { expected },
     }
 }
 
@@ -38,11 +47,8 @@ pub(super) fn number(
     const LARGEST: f64 = 1e9;
     let written = attribute(node, what, name)?;
     let number = written.trim().parse().ok();
-    number.filter(|it: &f64| it.abs() <= LARGEST && may_be(*it)).ok_or_else(|| {
-        let (what, written) = (what.to_owned(), written.chars().take(40).collect::<String>());
-        let expected = or_xacro(&written, expected);
-        UrdfError::Number { what, attribute: name, written, expected }
-    })
+    let number = number.filter(|it: &f64| it.abs() <= LARGEST && may_be(*it));
+    number.ok_or_else(|| not_expected(what, name, written, expected))
 }
 
 pub(super) fn triple(
@@ -59,12 +65,7 @@ pub(super) fn triple(
     let is_whole = written.split_whitespace().count() == 3;
     match parts[..] {
         [x, y, z] if is_whole => Ok(Vector3::new(x, y, z)),
-        _ => Err(UrdfError::Number {
-            what: what.to_owned(),
-            attribute: name,
-            written: written.chars().take(40).collect(),
-            expected: or_xacro(written, "three numbers"),
-        }),
+        _ => Err(not_expected(what, name, written, "three numbers")),
     }
 }
 

@@ -61,7 +61,8 @@ fn casters_trail_or_are_called_so() {
     check_says(&rover, "no driven wheels: caster");
 }
 
-/// Sprockets and idlers roll above the rollers on the ground; whoever names wheels has them.
+/// A tracked vehicle, with sprockets and idlers above its rollers, is refused; with its wheels named
+/// by the caller it is read.
 #[test]
 fn tracks_are_refused_by_name() {
     let mut upper = String::new();
@@ -80,9 +81,9 @@ fn tracks_are_refused_by_name() {
     assert_eq!(found(&text, &named).wheels.len(), 4);
 }
 
-/// Rockers that turn without end, and reach as low as wheels do, carry wheels and are none.
+/// Rockers that turn without end and reach as low as wheels are not taken as wheels.
 #[test]
-fn what_carries_wheels_is_none() {
+fn links_that_carry_wheels_are_not_wheels() {
     let text = rockers(" multiplier=\"-1\"", "0 1 0").replace("revolute", "continuous");
     let low = CYLINDER.replace("<origin", "<origin xyz=\"0 0 -0.1\"");
     let [left, right] = ["left", "right"].map(|it| format!("<link name=\"{it}_rocker\">"));
@@ -105,7 +106,7 @@ fn a_single_wheel_is_in_the_middle() {
     }
     let refused = refused(&robot(&inner)).to_string();
     assert!(refused.contains("has 2 wheels (rear_left, rear_right)"), "{refused}");
-    // What carries it is counted before the size of wheels is asked for.
+    // The number of wheels is checked before their size.
     let mesh = "<visual><geometry><mesh filename=\"lost.stl\"/></geometry></visual>";
     let two = inner.replace(CYLINDER, mesh);
     let two = two.split("<link name=\"rear").next().unwrap_or_default();
@@ -167,7 +168,8 @@ fn a_floating_robot_and_endless_limits_are_read() {
     assert!(refused.contains("has 2 wheels"), "{refused}");
 }
 
-/// Errors name links and joints, and never the document that was to be made.
+/// An inertia that no body can have is replaced by an estimate, and a mass outside of a document's
+/// range is refused with its link.
 #[test]
 fn inertias_of_no_body_are_estimated() {
     let text = cart(CYLINDER, "").replace(
