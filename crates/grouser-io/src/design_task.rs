@@ -153,8 +153,8 @@ fn with_files(
 fn beside(ground: &DesignGround, key: &str, node: &Node, place: usize) -> Option<Companion> {
     let Value::String(name) = &node.value else { return None };
     let last = key.rsplit('.').next().unwrap_or(key);
-    let kind = [Kind::Rover, Kind::Wheel, Kind::Motor, Kind::Soil].into_iter();
-    let kind = kind.zip(["rover", "wheel", "motor", "soil"]).find(|(_, name)| *name == last)?.0;
+    let kinds = [Kind::Rover, Kind::Wheel, Kind::Motor, Kind::Soil];
+    let kind = kinds.into_iter().find(|kind| kind.name() == last)?;
     if preset(kind, name).is_some() {
         return None;
     }

@@ -4,7 +4,6 @@
 use std::f64::consts::TAU;
 
 use grouser_core::elementary::wide;
-use grouser_core::wheel::Wheel;
 use grouser_io::figure::{WheelRow, WheelShape};
 
 use super::pen::Pen;
@@ -31,25 +30,35 @@ const BELOW: f64 = 3.0;
 struct RowOfWheels {
     column: f64,
     scale: f64,
-    /// Height of the hubs in the two views.
-    hubs: [f64; 2],
+    /// The level of the soil in the two views, from the top of the sheet.
+    levels: [f64; 2],
     /// Where the soil of the two views ends.
     bottoms: [f64; 2],
 }
 
 impl RowOfWheels {
     fn of(row: &WheelRow) -> Self {
-        let most = |of: fn(&Wheel) -> f64| {
-            row.wheels.iter().map(|it| of(&it.wheel)).fold(f64::MIN_POSITIVE, f64::max)
+        let most = |of: fn(&WheelShape) -> f64| {
+            row.wheels.iter().map(of).fold(f64::MIN_POSITIVE, f64::max)
         };
-        let reach = most(Wheel::shearing_radius);
+        let high = most(|it| 2.0 * it.wheel.shearing_radius());
+        let widest = most(|it| it.wheel.width).max(high);
         let column = (WIDTH - 2.0 * EDGE) / row.wheels.len().max(1) as f64;
-        let widest = most(|wheel| wheel.width).max(2.0 * reach);
-        let scale = (FILLED * column / widest).min(HIGHEST / (2.0 * reach));
-        let high = 2.0 * scale * reach + BELOW;
-        let tops = [TOP, TOP + high + EDGE];
-        let (hubs, bottoms) = (tops.map(|it| it + scale * reach), tops.map(|it| it + high));
-        Self { column, scale, hubs, bottoms }
+        let scale = (FILLED * column / widest).min(HIGHEST / high);
+        let over = scale * most(|it| 2.0 * it.wheel.shearing_radius() - it.sinkage);
+        let under = scale * most(|it| it.sinkage) + BELOW;
+        let levels = [TOP + over, TOP + over + under + EDGE + over];
+        Self { column, scale, levels, bottoms: levels.map(|it| it + under) }
+    }
+
+    /// The shearing radius of a wheel on paper.
+    fn reach(&self, shape: &WheelShape) -> f64 {
+        self.scale * shape.wheel.shearing_radius()
+    }
+
+    /// The hub of a wheel over the level of its soil.
+    fn hub(&self, shape: &WheelShape, x: f64, level: f64) -> Place {
+        [x, level - self.reach(shape) + self.scale * shape.sinkage]
     }
 }
 
@@ -60,12 +69,13 @@ pub(crate) fn sheet(row: &WheelRow) -> Sheet {
     let height = texts + LINE * lines as f64 + EDGE;
     let mut pen = Pen::new(&row.title, [WIDTH, height]);
     pen.heading(&row.title, [EDGE, 7.0]);
+    for (level, bottom) in layout.levels.into_iter().zip(layout.bottoms) {
+        soil(&mut pen, level, bottom);
+    }
     for (place, shape) in row.wheels.iter().enumerate() {
         let middle = EDGE + layout.column * (place as f64 + 0.5);
-        let [side, behind] = layout.hubs.map(|hub| [middle, hub]);
-        soil(&mut pen, shape, side, &layout, layout.bottoms[0]);
-        from_its_side(&mut pen, &shape.wheel, side, reach(shape, &layout), 0.5);
-        soil(&mut pen, shape, behind, &layout, layout.bottoms[1]);
+        let [side, behind] = layout.levels.map(|level| layout.hub(shape, middle, level));
+        from_its_side(&mut pen, &shape.wheel, side, layout.reach(shape), 0.5);
         from_behind(&mut pen, shape, behind, &layout);
         for (number, line) in shape.lines.iter().enumerate() {
             pen.note(line, [middle, texts + LINE * number as f64], Anchor::Middle);
@@ -74,22 +84,16 @@ pub(crate) fn sheet(row: &WheelRow) -> Sheet {
     pen.sheet
 }
 
-fn reach(shape: &WheelShape, layout: &RowOfWheels) -> f64 {
-    layout.scale * shape.wheel.shearing_radius()
-}
-
-/// The soil around a wheel, up to its level.
-fn soil(pen: &mut Pen, shape: &WheelShape, [x, hub]: Place, layout: &RowOfWheels, bottom: f64) {
-    let half = 0.5 * layout.column;
-    let level = hub + reach(shape, layout) - layout.scale * shape.sinkage;
-    let [left, right] = [x - half, x + half];
+/// The soil under all wheels, up to its level.
+fn soil(pen: &mut Pen, level: f64, bottom: f64) {
+    let [left, right] = [EDGE, WIDTH - EDGE];
     pen.area([[left, level], [right, level], [right, bottom], [left, bottom]], Role::Soil);
     pen.line([[left, level], [right, level]], Role::SoilEdge, 0.5);
 }
 
 /// The rim as wide as it is, and the grousers that are seen from behind.
 fn from_behind(pen: &mut Pen, shape: &WheelShape, [x, hub]: Place, layout: &RowOfWheels) {
-    let (wheel, reach) = (&shape.wheel, reach(shape, layout));
+    let (wheel, reach) = (&shape.wheel, layout.reach(shape));
     let (half, rim) = (layout.scale * wheel.width / 2.0, layout.scale * wheel.radius);
     let corners = |high: f64| {
         [[-half, -high], [half, -high], [half, high], [-half, high]]

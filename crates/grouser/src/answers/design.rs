@@ -198,7 +198,8 @@ impl DesignQuestion {
     /// What is said of the design.
     fn lines(&self, design: &BestDesign, rows: &[DesignRow], findings: &[Finding]) -> Vec<String> {
         let task = &self.task.value;
-        let numbers = self.numbers_in_words(design.candidate, &design.values);
+        let numbers =
+            self.numbers_in_words(&task.candidates[design.candidate].chosen, &design.values);
         let aim = self.aim();
         let mut lines = vec![format!(
             "{aim} is {} at the least, with {numbers}.",
@@ -239,11 +240,10 @@ impl DesignQuestion {
         terms.collect::<Vec<_>>().join(" + ")
     }
 
-    fn numbers_in_words(&self, candidate: usize, values: &[f64]) -> String {
-        let task = &self.task.value;
-        let chosen = task.candidates[candidate].chosen.iter();
-        let chosen = chosen.map(|(key, value)| format!("{key} = {value}"));
-        let pairs = task.free.iter().zip(values);
+    /// Numbers of a design, those that were chosen first.
+    fn numbers_in_words(&self, chosen: &[(String, Value)], values: &[f64]) -> String {
+        let chosen = chosen.iter().map(|(key, value)| format!("{key} = {value}"));
+        let pairs = self.task.value.free.iter().zip(values);
         let free = pairs.map(|((key, _), value)| format!("{key} = {}", four_digits(*value)));
         chosen.chain(free).collect::<Vec<_>>().join(", ")
     }
@@ -281,12 +281,9 @@ impl DesignQuestion {
             row.values.is_empty() || row.chosen != *chosen || moved.any(|it| it.abs() > APART)
         };
         let by_others: Vec<&DesignRow> = rows.iter().filter(|it| it.name == FOUND_BY_IT).collect();
-        let of = |row: &DesignRow| {
-            let numbers = free.iter().zip(&row.values);
-            let numbers = numbers.map(|((key, _), it)| format!("{key} = {}", four_digits(*it)));
-            let numbers: Vec<String> = numbers.collect();
-            let none = "no design".to_owned();
-            format!("{}: {}", row.model, if numbers.is_empty() { none } else { numbers.join(", ") })
+        let of = |row: &DesignRow| match &row.values[..] {
+            [] => format!("{}: no design", row.model),
+            values => format!("{}: {}", row.model, self.numbers_in_words(&row.chosen, values)),
         };
         let others = by_others.iter().copied().filter(differs).map(of).collect::<Vec<_>>();
         (!by_others.is_empty()).then(|| match &others[..] {
@@ -443,7 +440,7 @@ impl DesignQuestion {
         };
         format!(
             "{none}: the nearest, with {}, misses {}; loosen that{ends}",
-            self.numbers_in_words(*candidate, values),
+            self.numbers_in_words(&self.task.value.candidates[*candidate].chosen, values),
             each.collect::<Vec<_>>().join(" and ")
         )
     }

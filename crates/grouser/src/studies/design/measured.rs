@@ -74,9 +74,8 @@ impl MeasuredGround {
     /// The steepest slope on which the ground stands by its own strength [rad], the strongest where
     /// it is uncertain.
     pub(super) fn strength(&self) -> f64 {
-        let own = HeadingStudy::of(&self.scenario);
-        let of_soil = |sample: &Sample| HeadingStudy { soil: sample.soil, ..own.clone() };
-        self.samples.iter().map(|it| of_soil(it).ground_limit()).fold(0.0, f64::max)
+        let limits = self.samples.iter().map(|it| study(&self.scenario, it).ground_limit());
+        limits.fold(0.0, f64::max)
     }
 
     /// The flags of the rover with other numbers in its first soil and model.
