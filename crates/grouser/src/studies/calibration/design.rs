@@ -15,7 +15,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use super::diagnostics::covariance_of;
 use super::solution::Solution;
 use super::wheel_test::WheelTestExperiment;
-use super::{Calibration, Experiment as _};
+use super::{Experiment as _, ParameterSpace};
 use crate::contact::Slip;
 use crate::studies::ensemble::outputs;
 use crate::studies::measurement::{PerQuantity, Quantity};
@@ -57,11 +57,11 @@ const DESIGN_SAMPLES: usize = 200;
 impl Aim {
     /// The runs to make next, the best first.
     ///
-    /// * `calibration`: of the experiment
+    /// * `space`: of the parameters
     #[must_use]
     pub fn proposals(
         &self,
-        calibration: &Calibration,
+        space: &ParameterSpace,
         experiment: &WheelTestExperiment,
         solution: &Solution,
     ) -> Vec<Proposal> {
@@ -72,27 +72,41 @@ impl Aim {
             let outlook = Outlook::of_wheel_test(experiment, &rows, target, candidates, &noise);
             return outlook.propose(self.count);
         }
-        let (mode, covariance) = calibration.mode_near(&solution.fit);
-        let settings: Vec<(Slip, f64)> = std::iter::once(&target.setting)
-            .chain(candidates)
+        let Some((mode, covariance)) = &solution.mode else { return Vec::new() };
+        let by_slopes = self.covariance_by_slopes(space, experiment, mode, covariance, &noise);
+        let Some(covariance) = by_slopes else { return Vec::new() };
+        let noise: Vec<f64> = measured(&noise).iter().filter_map(|&it| noise[it]).collect();
+        propose(covariance, candidates.len(), &noise, self.count)
+    }
+
+    /// The covariance of the prediction and of all that candidates would measure, by their
+    /// derivatives at the most likely point; nothing where a wheel has none.
+    ///
+    /// * `mode`, `covariance`: that point, and the covariance there
+    fn covariance_by_slopes(
+        &self,
+        space: &ParameterSpace,
+        experiment: &WheelTestExperiment,
+        mode: &[f64],
+        covariance: &DMatrix<f64>,
+        noise: &PerQuantity<Option<f64>>,
+    ) -> Option<DMatrix<f64>> {
+        let settings: Vec<(Slip, f64)> = std::iter::once(&self.target.setting)
+            .chain(&self.candidates)
             .map(|it| (Slip::on_test_stand(it.slip_ratio, it.slip_angle), it.load))
             .collect();
-        let values = |coordinates: &[f64]| calibration.space().values(coordinates);
-        let Some(slopes) = experiment.slopes_at(&settings, &mode, &values) else {
-            return Vec::new();
-        };
-        let measured = measured(&noise);
+        let values = |coordinates: &[f64]| space.values(coordinates);
+        let slopes = experiment.slopes_at(&settings, mode, &values)?;
+        let measured = measured(noise);
         let outcomes =
             (1..settings.len()).flat_map(|it| measured.iter().map(move |one| (it, *one)));
         let rows: Vec<(usize, Quantity)> =
-            std::iter::once((0, target.quantity)).chain(outcomes).collect();
+            std::iter::once((0, self.target.quantity)).chain(outcomes).collect();
         let jacobian = DMatrix::from_fn(rows.len(), mode.len(), |row, axis| {
             let (setting, quantity) = rows[row];
             slopes[axis][setting][quantity]
         });
-        let covariance = &jacobian * covariance * jacobian.transpose();
-        let noise: Vec<f64> = measured.iter().filter_map(|&it| noise[it]).collect();
-        propose(covariance, candidates.len(), &noise, self.count)
+        Some(&jacobian * covariance * jacobian.transpose())
     }
 }
 

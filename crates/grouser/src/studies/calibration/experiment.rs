@@ -102,11 +102,11 @@ pub trait Experiment: Sync {
     /// [`ParameterError`] if the values are no valid soil: the search turns away from them.
     fn predict(&self, values: &[f64], predictions: &mut [f64]) -> Result<(), ParameterError>;
 
-    /// The same, and what [`predict_beside`](Self::predict_beside) starts from there, if from
-    /// anything.
+    /// Predicts all observations, and returns what [`predict_beside`](Self::predict_beside) starts
+    /// from there, if from anything.
     ///
     /// # Errors
-    /// As [`predict`](Self::predict).
+    /// [`ParameterError`] if the values are no valid soil.
     fn predict_and_keep(
         &self,
         values: &[f64],

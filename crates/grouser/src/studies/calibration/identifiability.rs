@@ -73,6 +73,11 @@ impl Identifiability {
     #[must_use]
     pub fn of_fit(calibration: &Calibration, fit: &Fit) -> Self {
         let (mode, covariance) = calibration.mode_near(fit);
+        Self::of_mode(&mode, &covariance)
+    }
+
+    /// The identifiability by the curvature at the mode near a fit.
+    pub(super) fn of_mode(mode: &[f64], covariance: &DMatrix<f64>) -> Self {
         // dp/du = p (1 − p).
         let slope = |u: f64| position_of(u) * position_of(-u) / PRIOR_DEVIATION;
         let slopes: Vec<f64> = mode.iter().map(|&u| slope(u)).collect();

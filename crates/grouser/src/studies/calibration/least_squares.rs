@@ -96,7 +96,8 @@ struct Search<'a> {
     rows: usize,
     /// The residuals at the start, until the library asks for them.
     first: Option<Evaluated>,
-    /// What the last point's residuals have kept: that of the last step, where it was accepted.
+    /// What the residuals of the point that was evaluated last have kept; the Jacobian is asked for
+    /// only there.
     kept: Vec<f64>,
     /// Evaluations that are left.
     left: usize,

@@ -3,6 +3,8 @@
 
 use std::ops::ControlFlow;
 
+use nalgebra::DMatrix;
+
 use super::diagnostics::{Samples, Summary};
 use super::identifiability::Identifiability;
 use super::{Advanced, Calibration, CalibrationError, Channel, Fit};
@@ -76,6 +78,8 @@ pub struct Solution {
     pub posterior: Option<Posterior>,
     /// Parameters and combinations that the data do not determine.
     pub identifiability: Identifiability,
+    /// The most likely point near the fit, and the covariance there; missing with sampling.
+    pub(super) mode: Option<(Vec<f64>, DMatrix<f64>)>,
 }
 
 /// A sampled posterior. Its coordinates are those of the parameters, then those of the
@@ -151,13 +155,15 @@ impl Calibration<'_> {
     ) -> Result<Solution, CalibrationError> {
         let sampled = sampling.map(|sampling| self.sample(&fit, sampling, observer));
         let posterior = sampled.transpose()?;
-        let identifiability = match &posterior {
-            Some(posterior) => Identifiability::of_samples(self, &posterior.samples),
-            None => Identifiability::of_fit(self, &fit),
+        let (identifiability, mode) = if let Some(posterior) = &posterior {
+            (Identifiability::of_samples(self, &posterior.samples), None)
+        } else {
+            let (mode, covariance) = self.mode_near(&fit);
+            (Identifiability::of_mode(&mode, &covariance), Some((mode, covariance)))
         };
         let deviations = fit.deviations(self.space());
         let channels = self.experiment().channels().to_vec();
-        Ok(Solution { channels, fit, deviations, posterior, identifiability })
+        Ok(Solution { channels, fit, deviations, posterior, identifiability, mode })
     }
 
     fn sample(

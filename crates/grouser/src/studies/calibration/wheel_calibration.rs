@@ -84,7 +84,7 @@ impl WheelCalibration<'_> {
         let left_out = if self.cross_validate { Some(self.left_out(observer)?) } else { None };
         let (left_out, overall) = left_out.unzip();
         Ok(WheelFindings {
-            proposals: self.aim.proposals(&calibration, &experiment, &solution),
+            proposals: self.aim.proposals(calibration.space(), &experiment, &solution),
             validation: self.judge((self.setup.soil_of)(&solution.fit.values)?),
             left_out: left_out.unwrap_or_default(),
             left_out_overall: overall,

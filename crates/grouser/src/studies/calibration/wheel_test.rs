@@ -212,7 +212,8 @@ impl<'a> WheelTestExperiment<'a> {
         self.cells_settled(soil, cells).0
     }
 
-    /// The same, with the sinkage of each run [m], NaN where it has not settled.
+    /// The readings of some cells, and the settled sinkage of each run [m], NaN where it has not
+    /// settled.
     fn cells_settled(&self, soil: &Soil, cells: &[usize]) -> (Vec<PerQuantity<f64>>, Vec<f64>) {
         let runs = cells.iter().flat_map(|&cell| &self.runs[cell]);
         let wheels: Vec<(Contact, f64)> =
