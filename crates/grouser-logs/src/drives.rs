@@ -18,7 +18,7 @@ use crate::telemetry::options::LogOptions;
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
 pub struct DriveFolder {
-    /// The drives, by the places of their logs.
+    /// The drives, in the order of their logs' paths, folder by folder.
     pub drives: Vec<RecordedDrive>,
     /// What each log gave, and a mapping of the user's.
     pub given: Vec<GivenFile>,

@@ -27,8 +27,9 @@ use crate::error::{Problem, TelemetryError};
 
 /// Telemetry of a drive, opened.
 ///
-/// It may be of several files, which follow one another by one clock: files of MCAP are read as one
-/// log, and of others each after the one before.
+/// It may be of several files by one clock: files of MCAP, which follow one another or, with topics of
+/// their own, were recorded side by side, are read as one log, and of others each after the one
+/// before.
 pub struct TelemetryLog {
     label: String,
     /// Parts that were read, and last the one that is.

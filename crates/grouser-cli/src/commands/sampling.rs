@@ -54,7 +54,7 @@ pub(crate) fn with_bar<T>(
     with_bar_of("samples", samples, compute)
 }
 
-/// The same of something else than samples.
+/// Computes with a bar that counts `what`.
 pub(crate) fn with_bar_of<T>(
     what: &'static str,
     samples: usize,
@@ -74,7 +74,7 @@ pub(crate) fn with_bar_of<T>(
     found
 }
 
-/// What a bar counts: these where derivatives are asked for, samples otherwise.
+/// The noun that a bar counts: `these` where derivatives are asked for, samples otherwise.
 pub(crate) fn what(gradients: Option<&GradientKeys>, these: &'static str) -> &'static str {
     if gradients.is_some() { these } else { "samples" }
 }

@@ -58,7 +58,7 @@ fn twin(place: &Place, layout: Layout, settings: &[&str]) {
 
 const JUDGE: &str = "validate --drives drives --mapping mines --rover hakuto --soil toyoura";
 
-/// The same of another layout.
+/// The command that judges the drives of a layout, by its mapping and with its rover.
 fn judge(layout: Layout) -> String {
     JUDGE.replace("mines", layout.mapping()).replace("hakuto", layout.rover())
 }

@@ -113,7 +113,7 @@ impl Run {
     /// * `before`: in the order of [`numbers`](Self::numbers)
     ///
     /// # Errors
-    /// As [`linear_step`](Self::linear_step).
+    /// [`NoLinearStep`], for the reasons that [`linear_step`](Self::linear_step) names.
     pub fn linear_step_from(
         &self,
         before: &[f64],
@@ -122,7 +122,7 @@ impl Run {
     ) -> Result<LinearStep, NoLinearStep> {
         let precise = self.precise()?;
         let before = before.to_vec();
-        let here: Vec<f64> = before.iter().chain(rim_speeds).copied().collect();
+        let here = [&*before, rim_speeds].concat();
         let stepped = |point: &[f64]| precise.stepped_from(point, before.len(), span);
         let after = stepped(&here)?;
         let scales = Scales::of(self, rim_speeds);

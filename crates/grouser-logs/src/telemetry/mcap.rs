@@ -1,7 +1,8 @@
 //! Telemetry of MCAP logs, whose messages are JSON, Protocol Buffers or those of ROS.
 //!
-//! A log may be several files, as recorders part them: their messages are read one after the other,
-//! and become rows as those of one file do. Files of one sensor each are read side by side.
+//! A log may be several files: those that follow one another, as recorders part them, are read in turn,
+//! those that overlap and share no topic side by side, and their messages become rows as those of one
+//! file do.
 
 mod file;
 

@@ -1,4 +1,5 @@
-//! A part of a log, of any kind, record by record: a table, or files of MCAP that follow one another.
+//! A part of a log, of any kind, record by record: a table, or files of MCAP that follow one another or
+//! were recorded side by side.
 
 use std::cell::Cell;
 use std::fs::File;

@@ -27,7 +27,7 @@ fn mcap(steps: Range<u32>, end: End) -> Vec<u8> {
     mcap_of(["/odom", "/joint_states"], steps, end)
 }
 
-/// The same of some of their topics.
+/// A log of a rover that goes ever faster, with some of the topics `/odom` and `/joint_states`.
 fn mcap_of<const N: usize>(topics: [&str; N], steps: Range<u32>, end: End) -> Vec<u8> {
     let mut log = Container::begin(Packed::Zstd);
     // Each file numbers its channels as it likes.

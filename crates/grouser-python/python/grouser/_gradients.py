@@ -30,8 +30,8 @@ class Gradient(Mapping[str, Floats]):
     of keys, each in the result's unit for one unit of the key. NaN by a key that the documents
     lack, and where there is no result.
 
-    They are exact to about 1e-9: partial derivatives at what was found are taken by differences,
-    and what follows them is solved for.
+    Those of settled wheels are exact to about 1e-9: partial derivatives at what was found are taken
+    by differences, and what follows them is solved for. Those of runs are differences of whole runs.
 
     Examples
     --------
@@ -124,7 +124,7 @@ def of_columns(columns: dict[str, Any], limit: Mapping[str, Any]) -> Gradient:
 def of_rows(
     rows: Any, one_sided: Any, keys: Sequence[str], names: Sequence[str], shape: tuple[int, ...]
 ) -> Gradient:
-    """Those of settled wheels: rows of all results by the first key, then by the next."""
+    """Derivatives from rows of all results by the first key, then by the next."""
     cells = rows.reshape(len(keys), len(names), *shape)
     sides = one_sided.reshape(cells.shape)
     last = range(1, len(shape) + 1)

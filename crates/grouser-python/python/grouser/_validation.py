@@ -23,6 +23,15 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+def _with_diagonal(axes: Axes, measured: Any, predicted: Any, name: str) -> Axes:
+    """Adds the line on which predictions are what was measured, and labels."""
+    low, high = np.nanmin([measured, predicted]), np.nanmax([measured, predicted])
+    axes.plot([low, high], [low, high], color="grey", lw=0.8)
+    axes.set_xlabel(f"measured {_tables.label(name)}")
+    axes.set_ylabel(f"predicted {_tables.label(name)}")
+    return axes
+
+
 @dataclass(frozen=True, eq=False)
 class Validation(_tables.Tabular):
     """Errors of a wheel–soil model against measurements, with the names of ``grouser validate``.
@@ -81,11 +90,7 @@ class Validation(_tables.Tabular):
         axes = _tables.axes_or_new(axes)
         measured, predicted = self.cells[f"measured_{name}"], self.cells[name]
         axes.plot(measured, predicted, **{"ls": "", "marker": ".", **style})
-        low, high = np.nanmin([measured, predicted]), np.nanmax([measured, predicted])
-        axes.plot([low, high], [low, high], color="grey", lw=0.8)
-        axes.set_xlabel(f"measured {_tables.label(name)}")
-        axes.set_ylabel(f"predicted {_tables.label(name)}")
-        return axes
+        return _with_diagonal(axes, measured, predicted, name)
 
     def __repr__(self) -> str:
         return f"<Validation of {self.overall['trials']} trials in {self.overall['cells']} cells>"
@@ -321,11 +326,7 @@ class DriveValidation(_tables.Tabular):
             own = np.asarray(self.cells["model"]) == model
             named = {"ls": "", "marker": ".", "label": model, **style}
             axes.plot(measured[own], predicted[own], **named)
-        low, high = np.nanmin([measured, predicted]), np.nanmax([measured, predicted])
-        axes.plot([low, high], [low, high], color="grey", lw=0.8)
-        axes.set_xlabel(f"measured {_tables.label(name)}")
-        axes.set_ylabel(f"predicted {_tables.label(name)}")
-        return axes
+        return _with_diagonal(axes, measured, predicted, name)
 
     def __repr__(self) -> str:
         count = len(self.drives["drive"])

@@ -148,7 +148,7 @@ impl DriveValidationQuestion {
         })
     }
 
-    /// That the soil is uncertain, and what of it predicts.
+    /// A note that an uncertain soil predicts by its nominal values, with its uncertain keys.
     fn nominal(&self) -> Option<String> {
         let uncertain = self.scenario.uncertain.as_ref()?;
         let keys: Vec<&str> = uncertain.keys().collect();
