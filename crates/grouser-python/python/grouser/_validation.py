@@ -376,7 +376,7 @@ def validate_drives(
 
     Examples
     --------
-    >>> import os, tempfile
+    >>> import csv, os, tempfile
     >>> import grouser as gr
     >>> folder = tempfile.TemporaryDirectory()
     >>> for slope_deg in (4.0, 8.0, 12.0):                   # the program writes such logs as well
@@ -385,9 +385,8 @@ def validate_drives(
     ...     log["roll_deg"] = slope_deg + 0.0 * run.time_s    # along the contour
     ...     for k, name in enumerate(run.wheel_names):
     ...         log[f"wheel_speed_rad_s_{name}"] = run.wheel["wheel_speed_rad_s"][:, k]
-    ...     rows = [",".join(log), *(",".join(map(str, row)) for row in zip(*log.values()))]
-    ...     with open(os.path.join(folder.name, f"{slope_deg}.csv"), "w") as file:
-    ...         _ = file.write("\n".join(rows) + "\n")
+    ...     with open(os.path.join(folder.name, f"{slope_deg}.csv"), "w", newline="") as file:
+    ...         csv.writer(file).writerows([list(log), *zip(*log.values())])
     >>> found = gr.validate_drives(folder.name, "toyoura", "hakuto")
     >>> found.models[0], len(found.drives["drive"])
     ('ishigami', 3)

@@ -106,10 +106,10 @@ def step(run: Run, commands: Any, dt_s: float, *, state: Any = None) -> Any:
     dt_s : float
         Duration of the step [s], from 1e-6 to 86400.
     state : array_like, shape (states,) or (..., states), optional
-        The state before the step, with the numbers of `grouser.LinearStep.states`: pose and
-        velocities in the order of `grouser.Run.STATE`; for a rover whose motors' speed depends on
-        their load, those of the wheels. By default the run's own. Leading axes broadcast with those
-        of the commands.
+        The state before the step, with the numbers that ``states`` of a `grouser.LinearStep` names:
+        pose and velocities in the order of `grouser.Run.STATE`; for a rover whose motors' speed
+        depends on their load, those of the wheels. By default the run's own. Leading axes broadcast
+        with those of the commands.
 
     Returns
     -------

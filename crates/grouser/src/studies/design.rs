@@ -22,25 +22,27 @@
 //! A design that does not cross the slope is measured where its curve ends, and that it crosses the
 //! slope is a limit like others: a search that starts below may climb.
 
+mod answer;
+mod limits;
 mod measured;
 mod nearest;
+mod problem;
 mod search;
 mod slsqp;
 
 use grouser_io::Described as _;
 use grouser_io::design::Measure;
 use grouser_io::design_task::DesignTask;
-use grouser_io::statistics::NothingAccepted;
 
+pub use self::answer::{BestDesign, Certificate, KeptLimit, Nearest, NoDesign};
+pub use self::limits::{DesignLimit, LimitSide};
 use self::measured::MeasuredGround;
 pub use self::measured::Measures;
-use self::search::{DesignSearch, Sought};
+pub use self::problem::GoOn;
+use self::problem::{DesignProblem, Sought};
 use crate::contact::Model;
 use crate::contact::validity::Finding;
 use crate::vehicle::Rover;
-
-/// Asked before each design that is measured, from any thread, whether to go on.
-pub type GoOn<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// The least of an aim under limits.
 #[derive(Clone, Debug)]
@@ -53,177 +55,11 @@ pub struct DesignStudy {
     pub seed: u64,
 }
 
-/// A limit of a measure on one of the grounds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DesignLimit {
-    /// On which ground, as numbered in
-    /// [`RoverChoice::grounds`](grouser_io::design_task::RoverChoice::grounds).
-    pub ground: usize,
-    /// What is limited.
-    pub measure: Measure,
-    /// To which side.
-    pub side: LimitSide,
-    /// The limit, in SI.
-    pub bound: f64,
-}
-
-/// To which side a measure is limited.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LimitSide {
-    /// It is to be as large or larger.
-    AtLeast,
-    /// It is to be as small or smaller.
-    AtMost,
-}
-
-/// A limit, and how a design keeps it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct KeptLimit {
-    /// The limit.
-    pub limit: DesignLimit,
-    /// What the design has, in SI; where the soil is uncertain, what it has or does better with the
-    /// probability that is asked for.
-    pub value: f64,
-    /// By how much the aim falls if the limit is loosened by one, each in its unit; 0 for one that does
-    /// not hold the design back.
-    pub price: f64,
-    /// The share of fresh samples that keeps it, where the soil is uncertain.
-    pub share: Option<f64>,
-}
-
-/// A design that was found.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BestDesign {
-    /// The rover, by its place among those that may be chosen.
-    pub candidate: usize,
-    /// The free numbers, in their keys' units.
-    pub values: Vec<f64>,
-    /// All numbers of the rover that it changes, by their keys: the free ones, and what the masses
-    /// of the wheels follow from.
-    pub numbers: Vec<(String, f64)>,
-    /// The aim.
-    pub objective: f64,
-    /// What is measured of it on the first ground, on average over samples where there are any.
-    pub measures: Measures,
-    /// Every limit.
-    pub kept: Vec<KeptLimit>,
-    /// What shows that it is the least.
-    pub certificate: Certificate,
-}
-
-/// What shows that a design is the least.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Certificate {
-    /// Searches that were started.
-    pub starts: usize,
-    /// Those that came to this design.
-    pub agreed: usize,
-    /// Designs around it that were looked at.
-    pub probes: usize,
-    /// Those that keep all limits and are better; none for a minimum.
-    pub better: usize,
-}
-
-/// Why no design was found.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum NoDesign {
-    /// No rover within the bounds moves, or none that was looked at.
-    #[error("no rover that was looked at within these bounds moves on this ground")]
-    NothingMoves,
-    /// No design was found that keeps all limits.
-    #[error("no design was found within these bounds that keeps every limit")]
-    Unreachable(Box<Nearest>),
-    /// No search came to an end.
-    #[error(
-        "no search for a design came to an end, from any start: this is no finding about rover and soil"
-    )]
-    NotFound,
-    /// The aim does not depend on what is free.
-    #[error("the aim does not depend on any number that is free")]
-    Constant,
-    /// A slope is to be crossed that is steeper than the ground itself stands.
-    #[error("no rover crosses a slope on which the ground itself does not stand")]
-    BeyondGround {
-        /// The limit.
-        limit: DesignLimit,
-        /// The steepest slope on which that ground stands by its own strength [rad].
-        stands: f64,
-    },
-    /// It was stopped on the way.
-    #[error("the search for a design was stopped before its end")]
-    Stopped,
-    /// No soil can be drawn.
-    #[error(transparent)]
-    NoSample(#[from] NothingAccepted),
-}
-
-/// The design that comes nearest to keeping all limits.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Nearest {
-    /// The rover, by its place among those that may be chosen.
-    pub candidate: usize,
-    /// The free numbers, in their keys' units.
-    pub values: Vec<f64>,
-    /// Limits that it misses, and what it has, in SI.
-    pub missed: Vec<(DesignLimit, f64)>,
-}
-
-/// What a change of a measure is small against, in its unit: aims and limits are counted in it.
-const fn size(measure: Measure) -> f64 {
-    match measure {
-        Measure::LimitSlope | Measure::Crab | Measure::TippingSlope => 5.0,
-        Measure::SinkageRatio | Measure::SlipRatio | Measure::Width | Measure::Current => 0.1,
-        Measure::EnergyPerMetre => 10.0,
-        Measure::Torque | Measure::BrakingTorque | Measure::WheelMass => 1.0,
-    }
-}
-
-/// The same, in SI.
-fn size_in_si(measure: Measure) -> f64 {
-    measure.unit().to_si(size(measure))
-}
-
-impl LimitSide {
-    /// Its key in documents.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::AtLeast => "at_least",
-            Self::AtMost => "at_most",
-        }
-    }
-
-    /// One where more is worse, minus one where less is.
-    const fn sign(self) -> f64 {
-        match self {
-            Self::AtLeast => -1.0,
-            Self::AtMost => 1.0,
-        }
-    }
-}
-
-impl DesignLimit {
-    /// Whether a value of its measure, in SI, keeps it but for rounding.
-    #[must_use]
-    pub fn holds(&self, value: f64) -> bool {
-        self.excess(value) <= 1e-6
-    }
-
-    fn is_of_slope(&self) -> bool {
-        self.measure == Measure::LimitSlope
-    }
-
-    /// By how much something misses it, over the measure's size; not above 0 where it keeps it.
-    fn excess(&self, value: f64) -> f64 {
-        self.side.sign() * (value - self.bound) / size_in_si(self.measure)
-    }
-}
-
 impl DesignStudy {
     /// How many soils are drawn for a search.
-    pub const SAMPLES: u32 = 40;
+    pub const SAMPLES: u32 = DesignProblem::SAMPLES;
     /// How many are drawn in the end.
-    pub const FRESH_SAMPLES: u32 = 200;
+    pub const FRESH_SAMPLES: u32 = DesignProblem::FRESH_SAMPLES;
 
     /// The study of a task.
     ///
@@ -346,7 +182,8 @@ impl DesignStudy {
     fn least(&self, sought: &Sought<'_>) -> Result<BestDesign, NoDesign> {
         let (mut best, mut none): (Option<BestDesign>, Vec<NoDesign>) = (None, Vec::new());
         for place in 0..self.task.candidates.len() {
-            match DesignSearch::of(self, place, sought, self.is_nominal)?.design() {
+            let problem = DesignProblem::of(&self.task, self.seed, place, sought, self.is_nominal)?;
+            match problem.design() {
                 Ok(design) if best.as_ref().is_none_or(|it| design.objective < it.objective) => {
                     best = Some(design);
                 }

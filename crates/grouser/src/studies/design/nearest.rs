@@ -2,9 +2,10 @@
 
 use std::cell::RefCell;
 
-use super::search::DesignSearch;
+use super::answer::{Nearest, NoDesign};
+use super::limits::DesignLimit;
+use super::problem::DesignProblem;
 use super::slsqp::{self, Smooth};
-use super::{DesignLimit, Nearest, NoDesign};
 
 /// A point that comes near to keeping limits.
 pub(super) struct NearestPoint {
@@ -18,7 +19,7 @@ pub(super) struct NearestPoint {
 
 /// The least by which the worst of some limits is missed: a last number that each may be missed by.
 struct Elastic<'a> {
-    search: &'a DesignSearch<'a>,
+    problem: &'a DesignProblem<'a>,
     is_meant: fn(&DesignLimit) -> bool,
     /// What the last number is a share of.
     most: f64,
@@ -28,18 +29,18 @@ struct Elastic<'a> {
 
 impl Smooth for Elastic<'_> {
     fn free(&self) -> usize {
-        self.search.free() + 1
+        self.problem.free() + 1
     }
 
     fn constraints(&self) -> usize {
-        self.search.constraints()
+        self.problem.constraints()
     }
 
     fn results(&self, point: &[f64]) -> Option<Vec<f64>> {
         let (share, own) = point.split_last()?;
         let slack = share * self.most;
-        let limits = self.search.limits.iter();
-        let mut outcome = self.search.outcome(own)?;
+        let limits = self.problem.limits.iter();
+        let mut outcome = self.problem.outcome(own)?;
         self.last.replace((own.to_vec(), outcome.clone()));
         let excesses = outcome.split_off(1).into_iter().zip(limits);
         // What is not meant is kept, whatever the point.
@@ -50,14 +51,14 @@ impl Smooth for Elastic<'_> {
     }
 
     fn gradients(&self, point: &[f64], _: &[f64]) -> Option<Vec<Vec<f64>>> {
-        let own = &point[..self.search.free()];
+        let own = &point[..self.problem.free()];
         let last = self.last.borrow();
-        let here = if last.0 == own { last.1.clone() } else { self.search.outcome(own)? };
-        let mut gradients = self.search.gradients(own, &here)?;
+        let here = if last.0 == own { last.1.clone() } else { self.problem.outcome(own)? };
+        let mut gradients = self.problem.gradients(own, &here)?;
         let [aim, limits @ ..] = &mut gradients[..] else { return None };
         aim.fill(0.0);
         aim.push(self.most);
-        for (limit, gradient) in self.search.limits.iter().zip(limits) {
+        for (limit, gradient) in self.problem.limits.iter().zip(limits) {
             let is_meant = (self.is_meant)(limit);
             if !is_meant {
                 gradient.fill(0.0);
@@ -68,7 +69,7 @@ impl Smooth for Elastic<'_> {
     }
 }
 
-impl DesignSearch<'_> {
+impl DesignProblem<'_> {
     /// The point from a start that comes nearest to keeping all limits. Slopes are climbed first: on
     /// one that is not crossed nothing else has a meaning.
     pub(super) fn nearest(&self, start: &[f64]) -> Option<NearestPoint> {
@@ -86,7 +87,7 @@ impl DesignSearch<'_> {
         let meant = self.limits.iter().zip(&excesses[1..]).filter(|(limit, _)| is_meant(limit));
         let worst = meant.map(|(_, excess)| *excess).fold(0.0, f64::max);
         let most = 2.0 * worst.max(1.0);
-        let elastic = Elastic { search: self, is_meant, most, last: RefCell::default() };
+        let elastic = Elastic { problem: self, is_meant, most, last: RefCell::default() };
         let mut point = start.to_vec();
         point.push(worst / elastic.most);
         let found = slsqp::minimum(&elastic, &point, self.effort())?;

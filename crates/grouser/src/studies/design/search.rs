@@ -1,110 +1,19 @@
-//! A search over the numbers of one rover: its starts, what it measures, and what it found.
+//! The search for the least of a problem: its starts, what shows that it is the least, and what is
+//! found.
 
 use grouser_io::design::Measure;
-use grouser_io::design_task::{DesignTask, RoverChoice};
 use grouser_io::statistics::NothingAccepted;
-use grouser_io::statistics::normal::normal_score;
 use rayon::prelude::*;
 
+use super::answer::{BestDesign, Certificate, KeptLimit, NoDesign};
+use super::limits::{DesignLimit, LimitSide, size, size_in_si};
 use super::measured::{self, MeasuredGround, Measures};
 use super::nearest::NearestPoint;
-use super::slsqp::{self, Effort, Minimum, Smooth};
-use super::{
-    BestDesign, Certificate, DesignLimit, DesignStudy, GoOn, KeptLimit, LimitSide, NoDesign, size,
-    size_in_si,
-};
-use crate::difference::{Derivative, StepLengths, Variable, derivatives};
-use crate::soil::Span;
+use super::problem::{DesignProblem, Moments, each};
+use super::slsqp::{self, Minimum, Smooth as _};
 use crate::studies::ensemble::design::{self as points, Sampling};
 
-/// What a search is for.
-#[derive(Clone, Copy)]
-pub(super) struct Sought<'a> {
-    /// The weights of the aim, each over one in its unit.
-    pub(super) weights: &'a [f64],
-    /// A limit beside those that are stated.
-    pub(super) extra: Option<DesignLimit>,
-    /// A design that may lie near the least.
-    pub(super) near: Option<&'a BestDesign>,
-    pub(super) go_on: GoOn<'a>,
-}
-
-/// A search over the numbers of one rover.
-pub(super) struct DesignSearch<'a> {
-    study: &'a DesignStudy,
-    pub(super) place: usize,
-    candidate: &'a RoverChoice,
-    pub(super) sought: &'a Sought<'a>,
-    /// What the aim is counted in.
-    aim_size: f64,
-    pub(super) limits: Vec<DesignLimit>,
-    /// How many of them the task has.
-    stated: usize,
-    /// How many standard deviations each limit keeps off its bound.
-    scores: Vec<f64>,
-    grounds: Vec<MeasuredGround>,
-}
-
-/// The mean of a measure over samples, and its standard deviation.
-#[derive(Clone, Copy, Debug, Default)]
-struct Moments {
-    mean: f64,
-    deviation: f64,
-}
-
-/// A measure of each sample of a ground.
-fn each(samples: &[Measures], measure: Measure) -> impl Iterator<Item = f64> + Clone {
-    samples.iter().map(move |it| it[measure.place()])
-}
-
-impl Moments {
-    fn of(samples: &[Measures], measure: Measure) -> Self {
-        let values = each(samples, measure);
-        let count = values.clone().count() as f64;
-        let mean = values.clone().sum::<f64>() / count;
-        let variance = values.map(|it| (it - mean).powi(2)).sum::<f64>() / count;
-        Self { mean, deviation: variance.sqrt() }
-    }
-}
-
-impl<'a> DesignSearch<'a> {
-    pub(super) fn of(
-        study: &'a DesignStudy,
-        place: usize,
-        sought: &'a Sought<'a>,
-        is_nominal: bool,
-    ) -> Result<Self, NoDesign> {
-        let candidate = &study.task.candidates[place];
-        let grounds = candidate.grounds.iter().map(|there| {
-            if is_nominal {
-                return Ok(MeasuredGround::nominal(there));
-            }
-            MeasuredGround::drawn(there, study.seed, DesignStudy::SAMPLES)
-        });
-        let grounds = grounds.collect::<Result<Vec<MeasuredGround>, NothingAccepted>>()?;
-        let sizes = Measure::ALL.into_iter().zip(sought.weights);
-        let aim_size = sizes.map(|(measure, weight)| weight.abs() * size(measure)).sum();
-        let own = limits_of(&study.task, candidate);
-        let stated = own.len();
-        let limits: Vec<DesignLimit> = own.into_iter().chain(sought.extra).collect();
-        let score = |limit: &DesignLimit| {
-            let is_uncertain = grounds[limit.ground].is_uncertain();
-            if is_uncertain { normal_score(study.task.probability) } else { 0.0 }
-        };
-        // What is traded is bounded by its mean.
-        let scores = limits[..stated].iter().map(score).chain(sought.extra.map(|_| 0.0)).collect();
-        Ok(Self { study, place, candidate, sought, aim_size, limits, stated, scores, grounds })
-    }
-
-    /// Whether each design is measured by samples.
-    fn is_sampled(&self) -> bool {
-        self.grounds.iter().any(MeasuredGround::is_uncertain)
-    }
-
-    pub(super) fn effort(&self) -> Effort {
-        if self.is_sampled() { Effort::SAMPLED } else { Effort::SMOOTH }
-    }
-
+impl DesignProblem<'_> {
     pub(super) fn design(self) -> Result<BestDesign, NoDesign> {
         self.check_ground()?;
         let starts = self.starts();
@@ -143,7 +52,7 @@ impl<'a> DesignSearch<'a> {
         if let Some(near) = self.near() {
             return Ok(near);
         }
-        let nominal = DesignSearch::of(self.study, self.place, self.sought, true)?;
+        let nominal = Self::of(self.task, self.seed, self.place, self.sought, true)?;
         match nominal.search(starts) {
             Ok((best, _)) => Ok(best.point),
             Err(NoDesign::Unreachable(nearest)) => Ok(self.point(&nearest.values)),
@@ -198,62 +107,6 @@ impl<'a> DesignSearch<'a> {
         Some(self.point(&near.values))
     }
 
-    /// The point of the unit cube that has some free numbers, or the next to them.
-    fn point(&self, values: &[f64]) -> Vec<f64> {
-        let ends = self.study.task.free.iter().map(|(_, ends)| ends);
-        let share = |(value, [least, most]): (&f64, &[f64; 2])| (value - least) / (most - least);
-        values.iter().zip(ends).map(share).map(|share| share.clamp(0.0, 1.0)).collect()
-    }
-
-    /// The free numbers at a point of the unit cube, in their keys' units.
-    pub(super) fn values(&self, point: &[f64]) -> Vec<f64> {
-        let pairs = self.study.task.free.iter().zip(point);
-        pairs.map(|((_, [least, most]), share)| least + share * (most - least)).collect()
-    }
-
-    /// What every sample measures on every ground; nothing where the numbers are no rover, or where too
-    /// few samples move.
-    pub(super) fn measured(&self, point: &[f64]) -> Option<Vec<Vec<Measures>>> {
-        if !(self.sought.go_on)() {
-            return None;
-        }
-        let values = self.values(point);
-        let numbers = measured::numbers(&self.study.task.free, self.candidate, &values)?;
-        let of_ground = |ground: &MeasuredGround| {
-            let all: Vec<Measures> = ground.measures(&numbers).into_iter().flatten().collect();
-            let enough = all.len() as f64 >= self.study.task.probability * ground.count() as f64;
-            (enough && !all.is_empty()).then_some(all)
-        };
-        self.grounds.iter().map(of_ground).collect()
-    }
-
-    /// The aim, over its size.
-    fn aim(&self, measured: &[Vec<Measures>]) -> f64 {
-        let of = |measure: Measure| measure.unit().from_si(Moments::of(&measured[0], measure).mean);
-        let weights =
-            Measure::ALL.into_iter().zip(self.sought.weights).filter(|(_, it)| **it != 0.0);
-        weights.map(|(measure, weight)| weight * of(measure)).sum::<f64>() / self.aim_size
-    }
-
-    /// What a limit is on: a measure's mean, and so many deviations from it.
-    pub(super) fn limited(&self, limit: usize, measured: &[Vec<Measures>]) -> f64 {
-        let (limit, score) = (&self.limits[limit], self.scores[limit]);
-        let Moments { mean, deviation } = Moments::of(&measured[limit.ground], limit.measure);
-        mean + limit.side.sign() * score * deviation
-    }
-
-    fn excesses(&self, measured: &[Vec<Measures>]) -> Vec<f64> {
-        let of = |place: usize| self.limits[place].excess(self.limited(place, measured));
-        (0..self.limits.len()).map(of).collect()
-    }
-
-    /// Aim and limits of a design.
-    pub(super) fn outcome(&self, point: &[f64]) -> Option<Vec<f64>> {
-        let measured = self.measured(point)?;
-        let aim = self.aim(&measured);
-        Some(std::iter::once(aim).chain(self.excesses(&measured)).collect())
-    }
-
     /// Looks up how many deviations each limit has to keep off for the share of samples that is
     /// asked for; whether any has changed.
     fn look_up_scores(&mut self, best: &Minimum) -> bool {
@@ -275,7 +128,7 @@ impl<'a> DesignSearch<'a> {
             let all = each(samples, limit.measure);
             let mut worse: Vec<f64> = all.map(|it| sign * (it - mean) / deviation).collect();
             worse.sort_by(f64::total_cmp);
-            let asked = self.study.task.probability * ground.count() as f64;
+            let asked = self.task.probability * ground.count() as f64;
             let kept = (1..worse.len()).find(|count| *count as f64 >= asked);
             let score = worse[kept.unwrap_or(worse.len()) - 1];
             let change = (score - self.scores[place]).abs() * deviation;
@@ -290,7 +143,7 @@ impl<'a> DesignSearch<'a> {
 
     fn found(&self, best: &Minimum, certificate: Certificate) -> Result<BestDesign, NoDesign> {
         let values = self.values(&best.point);
-        let numbers = measured::numbers(&self.study.task.free, self.candidate, &values);
+        let numbers = measured::numbers(&self.task.free, self.candidate, &values);
         let (Some(measured), Some(numbers)) = (self.measured(&best.point), numbers) else {
             return Err(NoDesign::NothingMoves);
         };
@@ -326,8 +179,8 @@ impl<'a> DesignSearch<'a> {
                 return Ok(None);
             }
             let there = &self.candidate.grounds[place];
-            let seed = self.study.seed.wrapping_add(1);
-            let fresh = MeasuredGround::drawn(there, seed, DesignStudy::FRESH_SAMPLES)?;
+            let seed = self.seed.wrapping_add(1);
+            let fresh = MeasuredGround::drawn(there, seed, Self::FRESH_SAMPLES)?;
             let measured = fresh.measures(numbers).into_iter();
             Ok(Some(measured.map(|it| Some(fresh.where_crossed(it?))).collect()))
         };
@@ -394,24 +247,6 @@ const AGREED: f64 = 1e-4;
 /// Searches among samples that differ by less came to one design: kinks end them early [-].
 const AGREED_BY_SAMPLES: f64 = 1e-3;
 
-/// The limits on every ground; that the slope is crossed is one, unless a stricter one is stated.
-fn limits_of(task: &DesignTask, candidate: &RoverChoice) -> Vec<DesignLimit> {
-    let of_ground = |(ground, slope): (usize, f64)| {
-        let both = Measure::ALL.into_iter().zip(task.limits).flat_map(move |(measure, ends)| {
-            let least = match measure {
-                Measure::LimitSlope if slope > 0.0 => ends.least.max(slope),
-                _ => ends.least,
-            };
-            let of = |side, bound| DesignLimit { ground, measure, side, bound };
-            [of(LimitSide::AtLeast, least), of(LimitSide::AtMost, ends.most)]
-        });
-        // What no ground changes is limited once.
-        both.filter(move |it| it.bound.is_finite() && (ground == 0 || !it.measure.is_of_rover()))
-    };
-    let slopes = candidate.grounds.iter().map(|there| there.slope);
-    slopes.enumerate().flat_map(of_ground).collect()
-}
-
 /// The share of samples that keeps a limit; one that does not move keeps none.
 fn share(limit: &DesignLimit, samples: &[Option<Measures>]) -> f64 {
     let keeps =
@@ -425,54 +260,4 @@ fn spread(dimensions: usize) -> impl Iterator<Item = Vec<f64>> {
     const POINTS: u64 = 128;
     let set = points::Design { sampling: Sampling::Sobol, points: POINTS, dimensions, seed: 1 };
     (0..POINTS).map(move |index| set.point(index))
-}
-
-impl DesignSearch<'_> {
-    /// Derivatives by each free number, to one side: means over samples have kinks everywhere, of
-    /// which none counts for much.
-    fn differences(&self, point: &[f64], here: &[f64]) -> Option<Vec<Vec<f64>>> {
-        /// The step, over the bounds [-].
-        const STEP: f64 = 1e-4;
-        let by = |axis: usize| -> Option<Vec<f64>> {
-            let step = if point[axis] + STEP > 1.0 { -STEP } else { STEP };
-            let mut moved = point.to_vec();
-            moved[axis] += step;
-            let there = self.outcome(&moved)?;
-            Some(there.iter().zip(here).map(|(there, here)| (there - here) / step).collect())
-        };
-        (0..self.free()).into_par_iter().map(by).collect()
-    }
-}
-
-impl Smooth for DesignSearch<'_> {
-    fn free(&self) -> usize {
-        self.study.task.free.len()
-    }
-
-    fn constraints(&self) -> usize {
-        self.limits.len()
-    }
-
-    fn results(&self, point: &[f64]) -> Option<Vec<f64>> {
-        self.outcome(point)
-    }
-
-    fn gradients(&self, point: &[f64], here: &[f64]) -> Option<Vec<Vec<f64>>> {
-        let by = if self.is_sampled() {
-            self.differences(point, here)?
-        } else {
-            let variable =
-                |value: &f64| Variable { value: *value, scale: 1.0, range: Span::new(0.0, 1.0) };
-            let variables: Vec<Variable> = point.iter().map(variable).collect();
-            let sizes = vec![1.0; here.len()];
-            let mut evaluate =
-                |points: &[Vec<f64>]| points.par_iter().map(|it| self.outcome(it)).collect();
-            let found = derivatives(&variables, here, &sizes, StepLengths::SETTLED, &mut evaluate);
-            let slopes =
-                |by: Vec<Derivative>| -> Vec<f64> { by.into_iter().map(|it| it.value).collect() };
-            found.by_variable.into_iter().map(|by| by.map(slopes)).collect::<Option<_>>()?
-        };
-        let gradient = |result: usize| -> Vec<f64> { by.iter().map(|of| of[result]).collect() };
-        Some((0..here.len()).map(gradient).collect())
-    }
 }
