@@ -165,7 +165,11 @@ impl Outcome {
             Self::Completed => None,
             Self::Immobilised { because, .. } => Some(because.sentence()),
             Self::Sliding { .. } => Some("it slides downhill faster than its wheels turn".into()),
-            Self::TippedOver { .. } => Some("its weight falls outside its wheels".into()),
+            Self::TippedOver { .. } => {
+                let why = "no loads of its wheels balance it: its weight falls outside them, or one on a \
+                           rocker or bogie would have to be held down";
+                Some(why.into())
+            }
             Self::BrownOut { because, .. } => Some(because.sentence()),
             Self::OffTheMap { wheel, place: at, .. } => {
                 Some(format!("wheel {wheel} is at {}, where the map has no heights", place(at)))

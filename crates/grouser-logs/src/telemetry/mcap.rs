@@ -55,6 +55,8 @@ struct Opened {
     descriptions: HashMap<u16, Option<Rc<OfSchema>>>,
     /// The next message, where it had to be looked at, and its content.
     next: Option<(Message, Vec<u8>)>,
+    /// Whether any message of it was read.
+    has_given: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -100,7 +102,7 @@ impl Opened {
     fn new(files: &mut [McapFile], at: usize) -> Result<Self, TelemetryError> {
         let messages = files[at].messages()?;
         let (decoders, descriptions) = (HashMap::new(), HashMap::new());
-        Ok(Self { at, messages, decoders, descriptions, next: None })
+        Ok(Self { at, messages, decoders, descriptions, next: None, has_given: false })
     }
 
     /// Its next message on a channel that is read.
@@ -206,9 +208,18 @@ impl McapLog {
         (gave.there, gave.used) = (gave.there + there, gave.used + used);
     }
 
-    /// What each file gave.
-    pub(crate) fn given(&self) -> impl Iterator<Item = GivenFile> {
-        self.gave.iter().map(|(it, _)| it.clone())
+    /// What each file gave. Files that are read side by side gave the same rows together.
+    pub(crate) fn given(&self) -> Vec<GivenFile> {
+        let of = |(file, _): &(GivenFile, f64)| file.clone();
+        let mut given: Vec<GivenFile> = self.gave.iter().map(of).collect();
+        if self.opened.len() > 1 {
+            let all = self.rows.rows().given("");
+            for opened in &self.opened {
+                let (there, used) = if opened.has_given { (all.there, all.used) } else { (0, 0) };
+                given[opened.at] = GivenFile { there, used, ..given[opened.at].clone() };
+            }
+        }
+        given
     }
 
     fn damage_of_opened(&self) -> Vec<String> {
@@ -237,6 +248,7 @@ impl McapLog {
     }
 
     fn add(&mut self, place: usize, message: &Message, data: &[u8]) {
+        self.opened[place].has_given = true;
         let decoder = self.opened[place].decoders.get(&message.channel).and_then(Option::as_ref);
         let Some(decoder) = decoder else { return };
         let (topic, tree) = match decoder {

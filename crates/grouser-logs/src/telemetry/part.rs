@@ -235,7 +235,7 @@ impl LogPart {
     /// What it gave so far, and what a mapping of the user's did.
     pub(super) fn given(&self) -> Vec<GivenFile> {
         let mut files: Vec<GivenFile> = match &self.source {
-            Source::Mcap(log) => log.given().collect(),
+            Source::Mcap(log) => log.given(),
             _ => vec![self.table().given(self.label())],
         };
         files[0].there += self.parquet().map_or(0, ParquetCells::unread);

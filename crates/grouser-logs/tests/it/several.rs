@@ -135,10 +135,18 @@ fn files_of_one_sensor_each_are_one_drive() {
         let sensor = |name: &str, topic: &str| {
             files.write(&format!("drive/{name}.mcap"), mcap_of([topic], 0..120, end))
         };
-        let sensors = [sensor("wheels", "/joint_states"), sensor("cameras", "/odom")];
+        let sensors = [
+            sensor("cameras", "/odom"),
+            sensor("tags", "/tags"),
+            sensor("wheels", "/joint_states"),
+        ];
         for paths in [vec![folder.clone()], sensors.to_vec()] {
-            let (records, ..) = read_all(&paths).unwrap();
+            let (records, given, _) = read_all(&paths).unwrap();
             assert!(records == whole, "{records:?}");
+            let mut given = gave(&given);
+            given.sort();
+            let expected = [("cameras.mcap", 120), ("tags.mcap", 0), ("wheels.mcap", 120)];
+            assert_eq!(given, expected.map(|(name, rows)| (name.to_owned(), rows)));
         }
     }
     let scenario = paper::traverse().unwrap();
