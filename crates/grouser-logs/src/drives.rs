@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use grouser::studies::drive_validation::{DriveRecorder, RecordedDrive};
 use grouser_core::simulation::Scenario;
 use grouser_io::escape;
-use grouser_io::given_file::GivenFile;
+use grouser_io::given_file::{FileContent, GivenFile};
 
 use crate::error::TelemetryError;
 use crate::telemetry::TelemetryLog;
@@ -101,10 +101,12 @@ impl DriveFolder {
     }
 
     /// Takes in what the files of a drive gave; logs of many drives may have one mapping.
-    fn give(&mut self, name: &str, files: Vec<GivenFile>) {
-        let mut files = files.into_iter();
-        self.given.extend(files.next().map(|log| GivenFile { file: name.to_owned(), ..log }));
-        let new: Vec<GivenFile> = files.filter(|it| !self.given.contains(it)).collect();
+    fn give(&mut self, name: &str, mut files: Vec<GivenFile>) {
+        let mut logs = files.iter_mut().filter(|it| it.content == FileContent::Telemetry);
+        if let (Some(log), None) = (logs.next(), logs.next()) {
+            name.clone_into(&mut log.file);
+        }
+        let new: Vec<GivenFile> = files.into_iter().filter(|it| !self.given.contains(it)).collect();
         self.given.extend(new);
     }
 }

@@ -129,6 +129,9 @@ pub enum AnswerError {
     /// A list that is asked about is empty.
     #[error("there are no {0} to answer for")]
     Empty(&'static str),
+    /// Measurements of which nothing can be compared with what is predicted, and why.
+    #[error("nothing of the {0} can be compared: {1}")]
+    NotCompared(&'static str, String),
     /// Two choices that have no answer together.
     #[error("{0} and {1} have no answer together")]
     Together(&'static str, &'static str),

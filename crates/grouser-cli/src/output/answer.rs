@@ -188,9 +188,10 @@ impl From<AnswerError> for Failure {
             AnswerError::Samples(error) => error.into(),
             AnswerError::Design(why) => Self::Run(why),
             AnswerError::Stopped => Self::Interrupted(error.to_string()),
-            AnswerError::Empty(_) | AnswerError::Together(..) | AnswerError::Key(_) => {
-                Self::Usage(error.to_string())
-            }
+            AnswerError::Empty(_)
+            | AnswerError::NotCompared(..)
+            | AnswerError::Together(..)
+            | AnswerError::Key(_) => Self::Usage(error.to_string()),
         }
     }
 }

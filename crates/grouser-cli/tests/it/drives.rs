@@ -189,6 +189,27 @@ fn folders_without_drives_are_refused() {
     assert!(refusal.contains("other.csv") && refusal.contains("temperature"), "{refusal}");
 }
 
+/// Drives of which nothing can be compared: the refusal says what is wrong with them.
+#[test]
+fn drives_without_a_word_on_slip_are_refused_with_the_reason() {
+    let place = Place::new();
+    std::fs::create_dir(place.file("drives")).expect("it can be made");
+    let wheels = ["front-left", "front-right", "rear-left", "rear-right"];
+    let speeds: String = wheels.map(|it| format!(",wheel_speed_rad_s_{it}")).concat();
+    let mut rows = format!("time_s,x_m,y_m,yaw_deg,roll_deg,pitch_deg{speeds}\n");
+    for step in 0..600 {
+        let time = 0.1 * f64::from(step);
+        // The same share of the wheels' way, all the time.
+        rows.push_str(&format!("{time},{},0,0,5,0{}\n", 0.0475 * time, ",0.5".repeat(4)));
+    }
+    place.write("drives/odometry.csv", rows);
+    let line = "validate --drives drives --rover hakuto --soil toyoura";
+    let refusal = check_is_refusal(&place.line(line), 2);
+    for words in ["odometry.csv: wheel odometry:", "stretches not compared: there is no way"] {
+        assert!(refusal.contains(words), "{words}: {refusal}");
+    }
+}
+
 /// A number of a hidden soil, over some drives.
 #[derive(Debug)]
 #[allow(dead_code, reason = "a failure prints the key")]

@@ -12,6 +12,7 @@ use crate::document::LoadedScenario;
 use crate::document::columns::drives::{
     DRIVE, NO_PREDICTION, SPLIT, TRIALS, TURN_RADIUS, cell_columns, cells, drives, quantity_of,
 };
+use crate::document::columns::learn::gross_in_words;
 use crate::document::columns::{MODEL, Quantity, SLOPE, YAW, advice::RIM_SPEED};
 use crate::document::figure::{Chart, Series, Style};
 use crate::document::given_file::GivenFile;
@@ -114,22 +115,22 @@ impl DriveValidationQuestion {
         all.filter(|it| !(is_off && *it == Model::SmallWheel)).collect()
     }
 
+    /// Why no stretch is compared: what each drive's gross faults are, and what stretches lack.
+    fn not_compared(&self, stretches: impl Iterator<Item = String>) -> AnswerError {
+        let faults = self.drives.iter().flat_map(|drive| {
+            drive.gross_faults.iter().map(|it| format!("{}: {}", drive.name, gross_in_words(it)))
+        });
+        let why: Vec<String> = faults.chain(stretches).collect();
+        let none = "stretches need an attitude, steadily turning wheels, and a way or torques";
+        let why = if why.is_empty() { none.to_owned() } else { why.join("; ") };
+        AnswerError::NotCompared("drives", why)
+    }
+
     fn found(
         &self,
         validation: DriveValidation,
         models: &[Model],
     ) -> Result<JudgedDrives, AnswerError> {
-        let Some(best) = validation.predictions.first().filter(|_| validation.compared > 0) else {
-            return Err(AnswerError::Empty(
-                "stretches with an attitude, steadily turning wheels and a way or torques",
-            ));
-        };
-        let has = |it: &DriveQuantity| {
-            validation.predictions.iter().any(|one| one.errors[*it as usize].is_some())
-        };
-        let quantities = DriveQuantity::ALL.into_iter().filter(has).collect();
-        let names: Vec<&str> = models.iter().map(Model::name).collect();
-        let sentences = vec![self.verdict(&validation, best)];
         let left_out = validation.not_compared.iter();
         let left_out = left_out.map(|(why, count)| {
             format!(
@@ -138,6 +139,15 @@ impl DriveValidationQuestion {
                 why.meaning()
             )
         });
+        let Some(best) = validation.predictions.first().filter(|_| validation.compared > 0) else {
+            return Err(self.not_compared(left_out));
+        };
+        let has = |it: &DriveQuantity| {
+            validation.predictions.iter().any(|one| one.errors[*it as usize].is_some())
+        };
+        let quantities = DriveQuantity::ALL.into_iter().filter(has).collect();
+        let names: Vec<&str> = models.iter().map(Model::name).collect();
+        let sentences = vec![self.verdict(&validation, best)];
         Ok(JudgedDrives {
             quantities,
             cells: Arc::new(cells(&validation, &names)),
