@@ -30,12 +30,25 @@ pub struct DesignTask {
     pub candidates: Vec<RoverChoice>,
     /// The numbers that are free, each with the least and the most that it may be in its key's unit.
     pub free: Vec<(String, [f64; 2])>,
+    /// Numbers that go with free ones.
+    pub tied: Vec<TiedNumber>,
     /// What is to be least: the sum of measures with these weights.
     pub weights: Weights,
     /// What is limited, in the order of [`Measure::ALL`].
     pub limits: [LimitEnds; Measure::COUNT],
     /// With which probability each limit is to be kept, where soils are uncertain [-].
     pub probability: f64,
+}
+
+/// A number of a rover that goes with a free one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TiedNumber {
+    /// Its key.
+    pub key: String,
+    /// The place of the free number.
+    pub free: usize,
+    /// One, or minus one where it is of the other sign.
+    pub sign: f64,
 }
 
 /// A rover whose numbers are free.
@@ -84,17 +97,18 @@ pub fn read_design(source: &Source, overrides: &Overrides) -> Result<LoadedDesig
     check_limits(&settings.limits, &tree)?;
     check_slope(&settings.limits, &document, &tree)?;
     let free = free(&document, &tree)?;
-    check_choices(&free, &tree)?;
+    let tied = tied(&document, &tree, &free)?;
+    check_choices(&free, &tied, &tree)?;
     let mut candidates = Vec::new();
     for choice in choices(&tree) {
-        candidates.push(candidate(source, overrides, &tree, &choice, &free)?);
+        candidates.push(candidate(source, overrides, &tree, &choice, (&free, &tied))?);
     }
     check_motors(&settings, &candidates, &tree)?;
     let soil = document.part(Kind::Soil, "soil");
     let assumed = soil.as_ref().map_or_else(Vec::new, priors::assumed);
     let (document, companions) = with_files(&document, &tree, &candidates);
     let DesignSettings { limits, probability, .. } = settings;
-    let value = DesignTask { candidates, free, weights, limits, probability };
+    let value = DesignTask { candidates, free, tied, weights, limits, probability };
     Ok(Loaded { assumptions, assumed, companions, ..Loaded::of(document, value) })
 }
 
@@ -218,8 +232,12 @@ const MOST_CHOICES: usize = 64;
 /// A value that is chosen for a key.
 type Chosen<'t> = (String, &'t Node);
 
-/// Checks that what may be chosen is of the rover, is not free as well, and is not too much.
-fn check_choices(free: &[(String, [f64; 2])], tree: &Node) -> Result<(), DocumentError> {
+/// Checks that what may be chosen is of the rover, is not free or tied as well, and is not too much.
+fn check_choices(
+    free: &[(String, [f64; 2])],
+    tied: &[TiedNumber],
+    tree: &Node,
+) -> Result<(), DocumentError> {
     let fault = |origin, what| Err(DocumentError::at(origin, Problem::Conflict(what)));
     let mut count = 1_usize;
     for (key, values) in tree.entry("choose").into_iter().flat_map(|it| entries_of(&it.node)) {
@@ -227,8 +245,12 @@ fn check_choices(free: &[(String, [f64; 2])], tree: &Node) -> Result<(), Documen
         if key != ROVER && !key.starts_with("rover.") {
             return fault(&values.origin, "only the rover and what is of it may be chosen");
         }
-        if free.iter().any(|(other, _)| *other == key) {
-            return fault(&values.origin, "what is free is not chosen from a list as well");
+        let mut moved = free.iter().map(|(key, _)| key).chain(tied.iter().map(|it| &it.key));
+        if moved.any(|other| *other == key) {
+            return fault(
+                &values.origin,
+                "what is free, or tied, is not chosen from a list as well",
+            );
         }
         count = count.saturating_mul(all.len());
         if count > MOST_CHOICES {
@@ -271,7 +293,7 @@ fn candidate(
     overrides: &Overrides,
     tree: &Node,
     choice: &[Chosen<'_>],
-    free: &[(String, [f64; 2])],
+    (free, tied): (&[(String, [f64; 2])], &[TiedNumber]),
 ) -> Result<RoverChoice, DocumentError> {
     let own = chosen_by(overrides, choice);
     let mut grounds = vec![ground(source, &own)?];
@@ -290,8 +312,14 @@ fn candidate(
     let varied = Varied::of(first.value.clone(), first.document.clone());
     let of_rover = choice.iter().filter(|(key, _)| key == ROVER);
     let base = ground(source, &chosen_by(overrides, of_rover))?.scenario.value.rover;
-    let given = free.iter().map(|(path, ends)| Ok(free_key(&varied, path, *ends, tree)?.value));
+    let given =
+        free.iter().map(|(path, ends)| Ok(free_key(&varied, path, *ends, tree, "free")?.value));
     let given = given.collect::<Result<_, DocumentError>>()?;
+    for TiedNumber { key, free: place, sign } in tied {
+        let mut ends = free[*place].1.map(|end| sign * end);
+        ends.sort_by(f64::total_cmp);
+        free_key(&varied, key, ends, tree, "tied")?;
+    }
     let chosen = choice.iter().map(|(key, node)| (key.clone(), node.to_json())).collect();
     Ok(RoverChoice { chosen, grounds, base, given })
 }
@@ -350,14 +378,43 @@ fn free(document: &Document, tree: &Node) -> Result<Vec<(String, [f64; 2])>, Doc
     Ok(free)
 }
 
-/// The number under a key that is free, between ends that it may have.
+/// The numbers that go with free ones.
+fn tied(
+    document: &Document,
+    tree: &Node,
+    free: &[(String, [f64; 2])],
+) -> Result<Vec<TiedNumber>, DocumentError> {
+    let given = document.keys().get("tied").into_iter().flat_map(keyed);
+    let tie = |(key, to): (String, &Json)| {
+        let fault = |what| {
+            let keys: Vec<&str> = free.iter().map(|(key, _)| &**key).collect();
+            let origin = tree.origin_of(&format!("tied.{key}"));
+            DocumentError::at(origin, Problem::Conflict(what))
+                .with_hint(format!("free are {}", keys.join(", ")))
+        };
+        let place = |wanted: &str| free.iter().position(|(key, _)| key == wanted);
+        if !key.starts_with("rover.") || place(&key).is_some() {
+            return Err(fault("only numbers of the rover that are not free are tied"));
+        }
+        let to = to.as_str().unwrap_or_default().trim();
+        let (sign, wanted) = to.strip_prefix('-').map_or((1.0, to), |wanted| (-1.0, wanted.trim()));
+        let place = place(wanted).ok_or_else(|| fault("what it is tied to is not free"))?;
+        Ok(TiedNumber { key, free: place, sign })
+    };
+    given.map(tie).collect()
+}
+
+/// The number under a key that moves, between ends that it may have.
+///
+/// * `table`: where the key stands
 fn free_key(
     scenario: &Varied<Scenario>,
     path: &str,
     [least, most]: [f64; 2],
     tree: &Node,
+    table: &str,
 ) -> Result<Key, DocumentError> {
-    let origin = tree.entry("free").map_or(tree, |entry| &entry.node);
+    let origin = tree.entry(table).map_or(tree, |entry| &entry.node);
     let origin = origin.entry(path).map_or_else(|| origin.origin_of(path), |it| &it.node.origin);
     let key = scenario.key(path).map_err(|none| none.at(origin))?;
     if let Some((mount, _)) = path.split_once(".wheel.")

@@ -105,6 +105,9 @@ pub(crate) enum Keyed {
     Bounds,
     /// What it may be: numbers or names.
     Choices,
+    /// The key of another number that it is as large as, with a minus before it where it is of the
+    /// other sign.
+    Tie,
 }
 
 /// Where a number goes; nowhere if the value follows another law.

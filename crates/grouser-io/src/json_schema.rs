@@ -231,6 +231,7 @@ fn of_field<T>(field: &Field<T>, defs: &mut Map<String, Json>) -> Json {
                     let either = json!({ "anyOf": [number, { "type": "string", "minLength": 1 }] });
                     list_of(&either, 1, None)
                 }
+                Keyed::Tie => json!({ "type": "string", "minLength": 1 }),
             };
             json!({ "type": "object", ANY_KEY: each, "minProperties": 1 })
         }

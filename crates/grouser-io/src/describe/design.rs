@@ -42,6 +42,13 @@ pub(crate) static DESIGN: Table<DesignSettings> = Table {
             Shape::Keyed(Keyed::Bounds),
         ),
         field(
+            "tied",
+            "Numbers that go with free ones: keys, each with the key of a free number that it is as \
+             large as, or of the other sign with a minus before it.",
+            Shape::Keyed(Keyed::Tie),
+        )
+        .optional(),
+        field(
             "choose",
             "Keys of the rover with the numbers or names that they may have, `rover` itself among \
              them; every combination is tried.",

@@ -148,7 +148,7 @@ impl DesignStudy {
         model: Option<&Model>,
     ) -> Vec<Finding> {
         let candidate = &self.task.candidates[candidate];
-        let Some(numbers) = measured::numbers(&self.task.free, candidate, values) else {
+        let Some(numbers) = measured::numbers(&self.task, candidate, values) else {
             return Vec::new();
         };
         let grounds = candidate.grounds.iter().map(MeasuredGround::nominal);
@@ -173,7 +173,7 @@ impl DesignStudy {
         model: &Model,
     ) -> Option<Measures> {
         let candidate = &self.task.candidates[candidate];
-        let numbers = measured::numbers(&self.task.free, candidate, values)?;
+        let numbers = measured::numbers(&self.task, candidate, values)?;
         let ground = MeasuredGround::nominal(candidate.grounds.first()?).with_model(model);
         Some(ground.where_crossed(ground.measures(&numbers).pop()??))
     }

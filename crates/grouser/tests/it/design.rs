@@ -107,6 +107,26 @@ fn a_width_that_is_asked_for_is_the_closed_form() {
     assert!((width.price - per_metre).abs() < 1e-3 * per_metre, "{width:?} {per_metre}");
 }
 
+/// The wider the track, the less the lower wheels sink on a cross slope: a limit on the width says how
+/// wide it gets, and wheels that are tied move with the one that is free.
+#[test]
+fn a_track_of_tied_wheels_is_the_closed_form() {
+    let study = study_of(
+        "minimise = \"sinkage_ratio\"\n[free]\n\"rover.mount.0.position_m.1\" = [0.15, 0.4]\n\
+         [tied]\n\"rover.mount.1.position_m.1\" = \"rover.mount.0.position_m.1\"\n\
+         \"rover.mount.2.position_m.1\" = \"-rover.mount.0.position_m.1\"\n\
+         \"rover.mount.3.position_m.1\" = \"-rover.mount.0.position_m.1\"\n\
+         [subject_to]\nwidth_m = { at_most = 0.62 }\n",
+    );
+    let found = study.design().expect("a design");
+    let rover = study.rover(&found).expect("a rover");
+    let half = 0.5 * (0.62 - rover.parts().wheel_unit.wheel.width);
+    assert!((found.values[0] - half).abs() < 1e-6, "{found:?}");
+    for (mount, side) in rover.mounts().iter().zip([1.0, 1.0, -1.0, -1.0]) {
+        assert_eq!(mount.position.y, side * found.values[0]);
+    }
+}
+
 #[test]
 fn what_is_chosen_is_the_best_of_all_that_may_be() {
     let body = "minimise = \"energy_j_per_m\"\n\
@@ -333,6 +353,20 @@ fn documents_that_say_nothing_that_can_be_are_refused_where_they_say_it() {
         (format!("{mass}\"rover.wheel_unit.wheel.radus_m\" = [0.1, 0.2]"), "radius_m"),
         (format!("{mass}\"rover.wheel_unit.wheel.radius_m\" = [0.1, 200.0]"), "200"),
         (format!("{mass}\"soil.friction_angle_deg\" = [20, 40]"), "only numbers of the rover"),
+        (
+            format!(
+                "{mass}\"rover.mount.0.position_m.1\" = [0.1, 0.2]\n[tied]\n\
+                 \"rover.mount.1.position_m.1\" = \"rover.mount.2.position_m.1\""
+            ),
+            "what it is tied to is not free",
+        ),
+        (
+            format!(
+                "{mass}\"rover.mount.0.position_m.1\" = [0.1, 0.2]\n[tied]\n\
+                 \"rover.mount.7.position_m.1\" = \"rover.mount.0.position_m.1\""
+            ),
+            "rover.mount.7",
+        ),
         (
             format!(
                 "{mass}\"rover.wheel_unit.wheel.radius_m\" = [0.1, 0.2]\n[subject_to]\n\

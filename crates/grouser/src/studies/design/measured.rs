@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use grouser_io::Described as _;
 use grouser_io::design::Measure;
-use grouser_io::design_task::{DesignGround, RoverChoice};
+use grouser_io::design_task::{DesignGround, DesignTask, RoverChoice};
 use grouser_io::statistics::NothingAccepted;
 use rayon::prelude::*;
 
@@ -170,22 +170,24 @@ fn of_rover(scenario: &Scenario) -> Measures {
     measures
 }
 
-/// All numbers that a design changes, by their keys: the free ones, and masses and inertias of
-/// wheels whose size is among them. Nothing where they are no rover.
+/// All numbers that a design changes, by their keys: the free ones, those that go with them, and
+/// masses and inertias of wheels whose size is among them. Nothing where they are no rover.
 pub(super) fn numbers(
-    free: &[(String, [f64; 2])],
+    task: &DesignTask,
     candidate: &RoverChoice,
     values: &[f64],
 ) -> Option<Vec<(String, f64)>> {
-    let own = free.iter().map(|(key, _)| key.clone()).zip(values.iter().copied());
-    let mut numbers: Vec<(String, f64)> = own.collect();
+    let own = task.free.iter().map(|(key, _)| key.clone()).zip(values.iter().copied());
+    let tied = task.tied.iter().map(|it| (it.key.clone(), it.sign * values[it.free]));
+    let mut numbers: Vec<(String, f64)> = own.chain(tied).collect();
+    let moved: Vec<String> = numbers.iter().map(|(key, _)| key.clone()).collect();
     let scenario = &candidate.grounds.first()?.scenario;
     let keys = numbers.iter().map(|(key, value)| (&**key, *value));
     let changed = scenario.value.with(keys).ok()?;
     for (table, factor, radii, inertia, mass) in units(&candidate.base, &changed.rover) {
         let is_free = |key: &str| {
             let chosen = candidate.chosen.iter().map(|(key, _)| key);
-            free.iter().map(|(key, _)| key).chain(chosen).any(|it| it == key)
+            moved.iter().chain(chosen).any(|it| it == key)
         };
         let key = format!("{table}.mass_kg");
         if factor == 1.0 || is_free(&key) || scenario.document.number(&key).is_none() {

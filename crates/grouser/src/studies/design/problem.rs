@@ -133,7 +133,7 @@ impl<'a> DesignProblem<'a> {
             return None;
         }
         let values = self.values(point);
-        let numbers = measured::numbers(&self.task.free, self.candidate, &values)?;
+        let numbers = measured::numbers(self.task, self.candidate, &values)?;
         let of_ground = |ground: &MeasuredGround| {
             let all: Vec<Measures> = ground.measures(&numbers).into_iter().flatten().collect();
             let enough = all.len() as f64 >= self.task.probability * ground.count() as f64;

@@ -143,7 +143,7 @@ impl DesignProblem<'_> {
 
     fn found(&self, best: &Minimum, certificate: Certificate) -> Result<BestDesign, NoDesign> {
         let values = self.values(&best.point);
-        let numbers = measured::numbers(&self.task.free, self.candidate, &values);
+        let numbers = measured::numbers(self.task, self.candidate, &values);
         let (Some(measured), Some(numbers)) = (self.measured(&best.point), numbers) else {
             return Err(NoDesign::NothingMoves);
         };
