@@ -34,6 +34,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypedDict
 
+if TYPE_CHECKING:
+    from typing_extensions import Required
+
 
 '''
 
@@ -85,7 +88,8 @@ class Writer:
         return union(self.type_of(it, name) for it in whole)
 
     def table(self, laws: list[dict[str, Any]], name: str, doc: str) -> str:
-        """A table, with the keys of all its laws."""
+        """A table, with the keys of all its laws; those that each law asks for are there."""
+        always = set.intersection(*(always_in(law) for law in laws))
         types: dict[str, list[str]] = {}
         docs: dict[str, str] = {}
         for law in laws:
@@ -101,11 +105,18 @@ class Writer:
         reserved = {key: union(found) for key, found in types.items() if keyword.iskeyword(key)}
         for key, found in types.items():
             if key not in reserved:
-                lines += [f"    {key}: {union(found)}", *doc_of(docs[key], "    ")]
+                kind = f"Required[{union(found)}]" if key in always else union(found)
+                lines += [f"    {key}: {kind}", *doc_of(docs[key], "    ")]
         first = self.known.setdefault((*lines, *reserved), name)
         if first == name:
             self.tables[name] = [*table_head(name, reserved), *lines]
         return first
+
+
+def always_in(law: dict[str, Any]) -> set[str]:
+    """The keys that a resolved table has: those that are asked for, alone or in thousands of their unit."""
+    either = [rule.get("else", {}).get("required", ()) for rule in law.get("allOf", ())]
+    return set(law.get("required", ())).union(*either)
 
 
 def table_head(name: str, reserved: dict[str, str]) -> list[str]:

@@ -74,7 +74,8 @@ def test_every_key_of_a_preset_is_declared(kind: Any) -> None:
                 check(item, type_of_it)
         if isinstance(value, dict):
             [name] = [word for word in re.findall(r"\w+", type_of_it) if word in classes]
-            assert value.keys() <= classes[name].keys(), name
+            always = {key for key, of in classes[name].items() if of.startswith("Required[")}
+            assert always <= value.keys() <= classes[name].keys(), name
             for key, item in value.items():
                 check(item, classes[name][key])
 

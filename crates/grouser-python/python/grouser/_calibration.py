@@ -93,7 +93,7 @@ class Calibration(_tables.Tabular):
     posterior_contraction: Floats
     """Standard deviation of the posterior over that of the prior [-]: near 1 the data do not inform
     the key."""
-    samples: Floats | None
+    samples: Floats | Any
     """Posterior samples, shape (samples, keys): ensemble by ensemble, step by step, walker by
     walker. Neighbours are of different walkers: taken as one chain they look independent, which
     they are not. `chains` has the order of the steps."""
@@ -119,31 +119,31 @@ class Calibration(_tables.Tabular):
     """Number of least-squares searches, from different starts."""
     searches_that_agree: int
     """Number of searches that reached the same minimum as the best."""
-    sampler: Mapping[str, Any] | None
+    sampler: Mapping[str, Any] | Any
     """Settings and diagnostics of the sampler: ``seed``, ``ensembles``, ``walkers``, ``steps``,
     ``acceptance``, ``worst_r_hat``, ``least_effective_samples``."""
     soil: Soil
     """The fitted soil, with the posterior samples as uncertainty: for `heading` and every other
     study that has samples."""
-    validation: Validation | None = None
+    validation: Validation | Any = None
     """Errors of the fitted model; None for plate tests."""
     cross_validation: tuple[Mapping[str, Any], ...] = ()
     """With ``cross_validate=True``, errors at each slip angle of a fit without that angle, as
     groups of a `Validation`; with samples also, for each quantity, ``coverage_50`` and
     ``coverage_95``, the shares of cells within the predictive bands, ``interval_score`` of the
     95 % bands, in the quantity's unit, and the number of ``cells_with_band``."""
-    cross_validation_overall: Mapping[str, Any] | None = None
+    cross_validation_overall: Mapping[str, Any] | Any = None
     """The same of all left-out cells together; None without ``cross_validate=True``."""
-    target: str | None = None
+    target: str | Any = None
     """The prediction whose uncertainty the proposed tests should reduce."""
-    proposals: Mapping[str, Any] | None = None
+    proposals: Mapping[str, Any] | Any = None
     """The tests to run next, the best first: columns ``load_n``, ``slip_ratio``,
     ``slip_angle_deg``, and the standard deviations of the target ``std_before`` and
     ``std_after``."""
-    curves: Mapping[str, Floats] | None = None
+    curves: Mapping[str, Floats] | Any = None
     """Of plate tests, columns over points: ``plate_width_mm``, ``sinkage_mm``,
     ``measured_pressure_kpa``, ``pressure_kpa``. Repeats are one curve, their mean."""
-    shear_curves: Mapping[str, Floats] | None = None
+    shear_curves: Mapping[str, Floats] | Any = None
     """Of shear tests, columns over points: ``normal_stress_kpa``, ``shear_displacement_mm``,
     ``measured_shear_stress_kpa``, ``shear_stress_kpa``."""
 

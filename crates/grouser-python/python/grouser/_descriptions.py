@@ -143,7 +143,7 @@ class _Description:
         return self._toml
 
     @property
-    def files(self) -> dict[str, str | Terrain]:
+    def files(self) -> Mapping[str, str | Terrain]:
         """Names and contents of the files that the document names; a copy. A soil whose uncertainty
         is given by samples has one, as text; ground with heights has a map, as a `Terrain`."""
         return {name: _file(content) for name, content in self._files.items()}
@@ -320,6 +320,13 @@ class Soil(_Description, _keys.SoilKeys):
 
     __slots__ = ()
     _kind = "soil"
+
+    if TYPE_CHECKING:
+
+        @property
+        def files(self) -> dict[str, str]:
+            """The samples of an uncertain soil, as text by the name of their file; a copy."""
+            ...
 
     def sample(self, n: int, seed: int = 1) -> list[Soil]:
         """Samples of an uncertain soil, by the deviations or the samples that its document states,

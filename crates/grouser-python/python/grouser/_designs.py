@@ -33,7 +33,7 @@ class BestDesign(_tables.Tabular):
     and ``share`` of fresh samples that keeps it, where the soil is uncertain."""
     designs: Mapping[str, Any]
     """What the rover as given and as found measures by each model: columns of shape (rows,)."""
-    trade: Mapping[str, Any] | None
+    trade: Mapping[str, Any] | Any
     """The same of designs between the least of two measures, if these were asked for."""
     certificate: Mapping[str, int]
     """``probes``: designs within 1 % of the bounds that were looked at; ``better``: those of them
@@ -60,7 +60,7 @@ def design(
     *,
     nominal: bool = False,
     seed: int = 1,
-    trade: tuple[str, str] | None = None,
+    trade: tuple[str, str] | Any = None,
     **changes: Any,
 ) -> BestDesign:
     """The free numbers of a rover that make something the least, under limits. The numbers are those

@@ -81,25 +81,25 @@ class Headings(_tables.Tabular):
     """Yaw moment left over [N·m]; negative turns the nose downhill."""
     columns: Mapping[str, NDArray[Any]]
     """All columns, by the names of the program's table."""
-    steering_deg: Floats | None = None
+    steering_deg: Floats | Any = None
     """Steering angle of every wheel that is steered [°], positive uphill; None without
     ``steering="crab"``."""
-    verdict: NDArray[np.object_] | None = None
+    verdict: NDArray[np.object_] | Any = None
     """Whether to drive there, as on the operator's card: ``go``, ``caution``, ``cannot_tell`` or
     ``no_go``; None with ``nominal=True``, as all that follows."""
-    reason: NDArray[np.object_] | None = None
+    reason: NDArray[np.object_] | Any = None
     """What decides the verdict, in a word, as in `Card`."""
-    probability_stuck: Floats | None = None
+    probability_stuck: Floats | Any = None
     """Share of ways of 10 m on which a rover that is driven so gets stuck, although its slip is
     looked at as often as the card says [-]; NaN where it is not driven."""
-    yaw_deg_as_written: Floats | None = None
+    yaw_deg_as_written: Floats | Any = None
     """Yaw that holds the contour on the soil as written [°]."""
-    of_models: Mapping[str, Floats] | None = None
+    of_models: Mapping[str, Floats] | Any = None
     """The same by each wheel–soil model that knows the forces across a wheel [°]."""
-    band: HeadingBand | None = None
+    band: HeadingBand | Any = None
     """Quantiles over the samples, and the probability that a heading holds the contour."""
 
-    gradient: Gradient | None = None
+    gradient: Gradient | Any = None
     """The derivatives of the results over the slopes, and of the steepest slope, with
     ``gradients``; else None."""
 
@@ -355,7 +355,7 @@ class HeadingMap(_tables.Tabular):
     limited_by: NDArray[np.object_]
     """What ends the curve there: ``wheels``, ``ground-strength``, ``range`` or
     ``not-found``, as in `Headings`."""
-    band: HeadingMapBand | None = None
+    band: HeadingMapBand | Any = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
     def _columns(self) -> dict[str, Any]:

@@ -5,6 +5,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypedDict
 
+if TYPE_CHECKING:
+    from typing_extensions import Required
+
 
 class SoilKnownFrom(TypedDict, total=False):
     """Where the constants are from, for priors: how widely bands draw about them."""
@@ -20,12 +23,12 @@ class SoilKnownFrom(TypedDict, total=False):
 class SoilPressureSinkage(TypedDict, total=False):
     """How pressure grows with sinkage."""
 
-    law: str
-    k_c: float
+    law: Required[str]
+    k_c: Required[float]
     """Cohesive modulus, k'_c [-]; a negative one needs `domain.width_m`."""
-    k_phi: float
+    k_phi: Required[float]
     """Frictional modulus, k'_φ [-]; a negative one needs `domain.width_m`."""
-    n: float
+    n: Required[float]
     """Sinkage exponent at zero slip, n [-]."""
     n_per_slip: float
     """Growth of n with the slip ratio while driving [-]."""
@@ -45,8 +48,8 @@ class SoilStressPeak(TypedDict, total=False):
 class SoilShear(TypedDict, total=False):
     """How shear stress is mobilised."""
 
-    law: str
-    longitudinal_m: float
+    law: Required[str]
+    longitudinal_m: Required[float]
     """Modulus along the wheel at zero slip angle, K_x [m]."""
     longitudinal_per_rad_m: float
     """Its growth with the slip angle [m/rad]."""
@@ -82,7 +85,7 @@ class SoilExit(TypedDict, total=False):
 class SoilBulldozing(TypedDict, total=False):
     """How soil pushed aside loads the side wall."""
 
-    law: str
+    law: Required[str]
     """How that force depends on the slip angle."""
 
 
@@ -204,7 +207,7 @@ class SoilDiscrepancy(TypedDict, total=False):
 class SoilUncertaintySamples(TypedDict, total=False):
     """Rows of numbers that belong together, such as a posterior's: each run takes one of them."""
 
-    csv: str
+    csv: Required[str]
     """What a CSV file would say: keys in the first line, a sample in every other."""
 
 
@@ -213,7 +216,7 @@ class SoilUncertaintyParameter(TypedDict, total=False):
     range."""
 
     distribution: str
-    key: str
+    key: Required[str]
     """A number of this document or, in a campaign, of what is varied, with the tables it stands
     in: `pressure_sinkage.k_phi`, `soil.cohesion_kpa`."""
     mean: float
@@ -231,9 +234,9 @@ class SoilUncertaintyParameter(TypedDict, total=False):
 class SoilUncertaintyCorrelation(TypedDict, total=False):
     """How two keys go together."""
 
-    between: tuple[str, ...]
+    between: Required[tuple[str, ...]]
     """Two of the uncertain keys."""
-    value: float
+    value: Required[float]
     """Their correlation (of the logarithm, where a key is lognormal) [-]."""
 
 
@@ -252,7 +255,7 @@ class SoilPriorsMissing(TypedDict, total=False):
     """What is believed of a number of a soil."""
 
     distribution: str
-    key: str
+    key: Required[str]
     """A number of a soil, with the tables it stands in: `exit.ratio`."""
     relative_to: str
     """A number of the soil of which the numbers of this row are multiples; without it, they are in
@@ -285,9 +288,9 @@ class SoilPriorsMissing(TypedDict, total=False):
 class SoilPriorsKeyword(TypedDict, total=False):
     """A keyword that a soil does not state."""
 
-    key: str
+    key: Required[str]
     """A keyword of a soil, with the tables it stands in: `bulldozing.law`."""
-    word: str
+    word: Required[str]
     """The keyword that stands there."""
     reason: str
     """Why it is so, in a sentence; a document of its own must have it."""
@@ -298,9 +301,9 @@ class SoilPriorsKeyword(TypedDict, total=False):
 class SoilPriorsCorrelation(TypedDict, total=False):
     """How two keys go together, and why."""
 
-    between: tuple[str, ...]
+    between: Required[tuple[str, ...]]
     """Two of the uncertain keys."""
-    value: float
+    value: Required[float]
     """Their correlation (of the logarithm, where a key is lognormal) [-]."""
     reason: str
     """Why it is so, in a sentence; a document of its own must have it."""
@@ -480,9 +483,9 @@ class SoilKeys:
 class WheelGrousers(TypedDict, total=False):
     """Bars across the rim; left out for a smooth wheel."""
 
-    height_m: float
+    height_m: Required[float]
     """Height over the rim, h_g [m]."""
-    count: int
+    count: Required[int]
     """How many there are."""
 
 
@@ -537,31 +540,31 @@ class WheelKeys:
 class RoverBodyInertiaKgM2(TypedDict, total=False):
     """Moments of inertia about its centre of mass [kg·m²]."""
 
-    xx: float
+    xx: Required[float]
     """About x, forward [kg·m²]."""
-    yy: float
+    yy: Required[float]
     """About y, to the left [kg·m²]."""
-    zz: float
+    zz: Required[float]
     """About z, up [kg·m²]."""
 
 
 class RoverBody(TypedDict, total=False):
     """The body, without its wheels."""
 
-    mass_kg: float
+    mass_kg: Required[float]
     """Mass [kg]."""
-    inertia_kg_m2: RoverBodyInertiaKgM2
+    inertia_kg_m2: Required[RoverBodyInertiaKgM2]
     """Moments of inertia about its centre of mass [kg·m²]."""
 
 
 class RoverWheelUnitInertiaKgM2(TypedDict, total=False):
     """Moments of inertia about its hub [kg·m²]."""
 
-    xx: float
+    xx: Required[float]
     """About x, forward [kg·m²]."""
-    yy: float
+    yy: Required[float]
     """About y, to the left [kg·m²]."""
-    zz: float
+    zz: Required[float]
     """About z, up [kg·m²]."""
 
 
@@ -578,9 +581,9 @@ class RoverWheelUnitWheel(TypedDict, total=False):
     """Anything else worth knowing."""
     assumed: tuple[str, ...]
     """Values that the source does not give, each as `key: why this value`."""
-    radius_m: float
+    radius_m: Required[float]
     """Radius of the rim, without grousers, r [m]."""
-    width_m: float
+    width_m: Required[float]
     """Width of the rim, b [m]."""
     grousers: WheelGrousers
     """Bars across the rim; left out for a smooth wheel."""
@@ -589,11 +592,11 @@ class RoverWheelUnitWheel(TypedDict, total=False):
 class RoverWheelUnit(TypedDict, total=False):
     """A wheel with its motor: that of every mount that has no other."""
 
-    mass_kg: float
+    mass_kg: Required[float]
     """Mass [kg]."""
-    inertia_kg_m2: RoverWheelUnitInertiaKgM2
+    inertia_kg_m2: Required[RoverWheelUnitInertiaKgM2]
     """Moments of inertia about its hub [kg·m²]."""
-    wheel: RoverWheelUnitWheel
+    wheel: Required[RoverWheelUnitWheel]
     """Its geometry: a preset's name, a path from this document's folder, or a wheel's keys."""
 
 
@@ -601,7 +604,7 @@ class RoverMotorControl(TypedDict, total=False):
     """Its speed controller: with one, the wheel turns slower under load. Left out, it turns as
     fast as it is set to, whatever that takes."""
 
-    gain_v_s_rad: float
+    gain_v_s_rad: Required[float]
     """Voltage that it adds to that of the set speed for each rad/s that the wheel is too slow, K_p
     [V·s/rad]."""
     integral_v_rad: float
@@ -616,13 +619,13 @@ class RoverMotorControl(TypedDict, total=False):
 class RoverMotorWinding(TypedDict, total=False):
     """How warm its winding becomes; left out, nothing is said of that."""
 
-    thermal_resistance_k_w: float
+    thermal_resistance_k_w: Required[float]
     """From the winding to its surroundings, R_th [K/W]."""
-    heat_capacity_j_k: float
+    heat_capacity_j_k: Required[float]
     """Heat capacity, C: the thermal time constant over R_th [J/K]."""
     surroundings_degc: float
     """Temperature of its surroundings, and its own at the start [°C]."""
-    highest_degc: float
+    highest_degc: Required[float]
     """The highest temperature that it stands [°C]."""
     derated_from_degc: float
     """Temperature from which on the current limit falls, to nothing at the highest; left out, it
@@ -673,11 +676,11 @@ class RoverBattery(TypedDict, total=False):
     """The battery, and what the electronics draw from it; without it nothing is known of its
     voltage and charge."""
 
-    capacity_wh: float
+    capacity_wh: Required[float]
     """Energy that it holds when it is full [W·h]."""
-    full_voltage_v: float
+    full_voltage_v: Required[float]
     """Open-circuit voltage when it is full [V]."""
-    empty_voltage_v: float
+    empty_voltage_v: Required[float]
     """Open-circuit voltage when it is empty; it falls in a line [V]."""
     internal_resistance_ohm: float
     """Internal resistance, R_b [Ω]."""
@@ -693,10 +696,10 @@ class RoverBattery(TypedDict, total=False):
 class RoverSuspensionBogie(TypedDict, total=False):
     """The bogie of each rocker, which carries two of three wheels on a side."""
 
-    pivot_m: tuple[float, ...]
+    pivot_m: Required[tuple[float, ...]]
     """Its axis, seen from the side, from the body's centre of mass where the rover stands on a
     plane: x forward, z up [m]."""
-    end: str
+    end: Required[str]
     """The end of the rover at which it is."""
 
 
@@ -704,7 +707,7 @@ class RoverSuspension(TypedDict, total=False):
     """How the wheels are joined to the body: on rockers with a differential, two wheels on a side,
     or with bogies three; left out, rigidly."""
 
-    pivot_m: tuple[float, ...]
+    pivot_m: Required[tuple[float, ...]]
     """Axis of the rockers, seen from the side, from the body's centre of mass: x forward, z up
     [m]."""
     bogie: RoverSuspensionBogie
@@ -715,11 +718,11 @@ class RoverMountInertiaKgM2(TypedDict, total=False):
     """Moments of inertia of this wheel with its motor about its hub [kg·m²], instead of the wheel
     unit's."""
 
-    xx: float
+    xx: Required[float]
     """About x, forward [kg·m²]."""
-    yy: float
+    yy: Required[float]
     """About y, to the left [kg·m²]."""
-    zz: float
+    zz: Required[float]
     """About z, up [kg·m²]."""
 
 
@@ -737,9 +740,9 @@ class RoverMountWheel(TypedDict, total=False):
     """Anything else worth knowing."""
     assumed: tuple[str, ...]
     """Values that the source does not give, each as `key: why this value`."""
-    radius_m: float
+    radius_m: Required[float]
     """Radius of the rim, without grousers, r [m]."""
-    width_m: float
+    width_m: Required[float]
     """Width of the rim, b [m]."""
     grousers: WheelGrousers
     """Bars across the rim; left out for a smooth wheel."""
@@ -788,13 +791,13 @@ class RoverMountMotor(TypedDict, total=False):
 class RoverMount(TypedDict, total=False):
     """Where a wheel sits, and what it has instead of the common wheel unit."""
 
-    name: str
+    name: Required[str]
     """The wheel's name, such as `front-left`; no two alike."""
     joint: str
     """What logs of the robot call the joint that turns it, as URDF does, if that is another name;
     with a minus before it where the joint's positive speeds roll the wheel backward, as about an
     axis that points to the right."""
-    position_m: tuple[float, ...]
+    position_m: Required[tuple[float, ...]]
     """The wheel's centre, at a steering angle of zero, from the body's centre of mass: x forward,
     y left, z up [m]."""
     steering_deg: float
@@ -932,7 +935,7 @@ class ScenarioTerrainZoneSoil(TypedDict, total=False):
     """Where the constants are from, for priors: how widely bands draw about them."""
     cohesion_kpa: float
     """Cohesion, c [kPa]."""
-    friction_angle_deg: float
+    friction_angle_deg: Required[float]
     """Angle of internal friction, φ [°]."""
     friction_test: str
     """The kind of test that the friction angle is from, which tells what of it a wheel mobilises;
@@ -942,11 +945,11 @@ class ScenarioTerrainZoneSoil(TypedDict, total=False):
     constant volume, 1; without it, as the kind of test says, or else the priors [-]."""
     density_kg_m3: float
     """Bulk density, ρ [kg/m³]."""
-    pressure_sinkage: SoilPressureSinkage
+    pressure_sinkage: Required[SoilPressureSinkage]
     """How pressure grows with sinkage."""
     stress_peak: SoilStressPeak
     """Where along the arc the normal stress peaks."""
-    shear: SoilShear
+    shear: Required[SoilShear]
     """How shear stress is mobilised."""
     exit: SoilExit
     """Where the wheel leaves the soil."""
@@ -1220,7 +1223,7 @@ class ScenarioKeys:
 class MissionStopSlipRatio(TypedDict, total=False):
     """Slip ratio over a way: 1 less what the ground saw of the rims' way."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [-]."""
     over_m: float
     """Way of the rims over which it is taken; before they have gone so far, nothing is limited
@@ -1234,7 +1237,7 @@ class MissionStopSlipRatio(TypedDict, total=False):
 class MissionStopDriftM(TypedDict, total=False):
     """Way down the ground under the rover over a way."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [m]."""
     over_m: float
     """Way of the rims over which it is taken; before they have gone so far, nothing is limited
@@ -1248,7 +1251,7 @@ class MissionStopDriftM(TypedDict, total=False):
 class MissionStopDriftMPerM(TypedDict, total=False):
     """Drift over a way: way down the ground under the rover for a metre travelled."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [m/m]."""
     over_m: float
     """Way of the rims over which it is taken; before they have gone so far, nothing is limited
@@ -1262,7 +1265,7 @@ class MissionStopDriftMPerM(TypedDict, total=False):
 class MissionStopSinkageOverRadius(TypedDict, total=False):
     """Largest sinkage of a wheel over its shearing radius."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [-]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1273,7 +1276,7 @@ class MissionStopSinkageOverRadius(TypedDict, total=False):
 class MissionStopSinkageMm(TypedDict, total=False):
     """Largest sinkage of a wheel."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [mm]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1284,7 +1287,7 @@ class MissionStopSinkageMm(TypedDict, total=False):
 class MissionStopRollDeg(TypedDict, total=False):
     """Roll to either side."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [°]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1295,7 +1298,7 @@ class MissionStopRollDeg(TypedDict, total=False):
 class MissionStopPitchDeg(TypedDict, total=False):
     """Pitch, nose up or down."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [°]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1306,7 +1309,7 @@ class MissionStopPitchDeg(TypedDict, total=False):
 class MissionStopTorqueNm(TypedDict, total=False):
     """Largest torque of a wheel's motor."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [N·m]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1317,7 +1320,7 @@ class MissionStopTorqueNm(TypedDict, total=False):
 class MissionStopTimeS(TypedDict, total=False):
     """Time since the leg began."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [s]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1328,7 +1331,7 @@ class MissionStopTimeS(TypedDict, total=False):
 class MissionStopEnergyJ(TypedDict, total=False):
     """Work of the motors since the leg began."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [J]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1339,7 +1342,7 @@ class MissionStopEnergyJ(TypedDict, total=False):
 class MissionStopOffPathM(TypedDict, total=False):
     """Distance from the straight line, or the circle, of the leg."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [m]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1350,7 +1353,7 @@ class MissionStopOffPathM(TypedDict, total=False):
 class MissionStopCurrentA(TypedDict, total=False):
     """Largest current of a wheel's motor, driving or braking."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [A]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1361,7 +1364,7 @@ class MissionStopCurrentA(TypedDict, total=False):
 class MissionStopWindingTemperatureDegc(TypedDict, total=False):
     """Highest temperature of a motor's winding."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [°C]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1372,7 +1375,7 @@ class MissionStopWindingTemperatureDegc(TypedDict, total=False):
 class MissionStopDepthOfDischarge(TypedDict, total=False):
     """Depth of discharge: 1 less the battery's state of charge."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [-]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1384,7 +1387,7 @@ class MissionStopShortfallDeg(TypedDict, total=False):
     """Yaw that a turn or an arc lacks where it ends; without it 2°: beyond, the leg is
     `fell_short`."""
 
-    above: float
+    above: Required[float]
     """The rover stops above this [°]."""
     then: str
     """What the rover does once it has stopped."""
@@ -1450,9 +1453,9 @@ class MissionSensors(TypedDict, total=False):
 class MissionLegArc(TypedDict, total=False):
     """It drives along a circle."""
 
-    radius_m: float
+    radius_m: Required[float]
     """Radius of the circle of the centre of mass [m]."""
-    angle_deg: float
+    angle_deg: Required[float]
     """How far the rover turns on it, above 0 to its left: it drives on until its yaw has turned so
     far, for at most twice the circle's way [°]."""
 
@@ -1461,9 +1464,9 @@ class MissionLegGoto(TypedDict, total=False):
     """It drives along a straight line to a place, towards which it turns on the spot first where
     that is not ahead."""
 
-    x_m: float
+    x_m: Required[float]
     """Along the contour, or on the map [m]."""
-    y_m: float
+    y_m: Required[float]
     """Uphill, measured along the slope, or on the map [m]."""
     within_m: float
     """How near is near enough [m]."""
@@ -1473,7 +1476,7 @@ class MissionLegDrive(TypedDict, total=False):
     """What turns the wheels of a `drive_m`, an `arc` or a `goto`; without it they keep their
     speeds."""
 
-    law: str
+    law: Required[str]
     """The law."""
     reference_slip_ratio: float
     """Reference slip ratio, s_ref [-]."""
@@ -1484,9 +1487,9 @@ class MissionLegDrive(TypedDict, total=False):
 class MissionLegToward(TypedDict, total=False):
     """The place towards which the nose is held."""
 
-    x_m: float
+    x_m: Required[float]
     """Along the contour, or on the map [m]."""
-    y_m: float
+    y_m: Required[float]
     """Uphill, measured along the slope, or on the map [m]."""
 
 
@@ -1574,9 +1577,9 @@ class MissionLeg(TypedDict, total=False):
 class MissionAlternative(TypedDict, total=False):
     """One of several ways to drive a mission."""
 
-    name: str
+    name: Required[str]
     """What the way is called; no two alike."""
-    leg: tuple[MissionLeg, ...]
+    leg: Required[tuple[MissionLeg, ...]]
     """What the rover does on this way, leg after leg."""
 
 

@@ -205,13 +205,13 @@ class DrivenMission(_tables.Tabular):
     motor, of a rover whose motors are known; ``winding_temperature_degc`` [°C], the highest, where
     their windings are, and ``state_of_charge`` [-] at the end, where the battery is. Empty without
     motors."""
-    risk: Mapping[str, Any] | None = None
+    risk: Mapping[str, Any] | Any = None
     """What the mission risks on samples of soil and model: the share that completes all legs,
     ``probability_completed``, with its 95 % confidence interval (``…_low``, ``…_high``); how the
     others end most often, ``commonest_end``, at which limit if one stopped it, in which leg and in
     how many samples (``commonest_end_limit``, ``commonest_end_leg``, ``commonest_end_draws``); and
     ``draws_not_computed``. None without ``samples``."""
-    advice: Mapping[str, NDArray[Any]] | None = None
+    advice: Mapping[str, NDArray[Any]] | Any = None
     """What to do on each leg that was begun, as columns, with NaN and None for one that leads
     nowhere: ``verdict`` and ``reason`` as in `Card`, ``probability_stuck``, and the heading to set,
     ``yaw_deg``, from the contour, with its band (``yaw_deg_p2_5`` …). None without ``samples``."""

@@ -69,26 +69,26 @@ class Rollout(_tables.Tabular):
     """Kinetic energy [J]."""
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
-    z_m: Floats | None = None
+    z_m: Floats | Any = None
     """Height of the body's centre of mass [m];
     None where all runs are on planes."""
-    roll_deg: Floats | None = None
+    roll_deg: Floats | Any = None
     """Roll, positive with the right side down [°];
     None where all runs are on planes."""
-    pitch_deg: Floats | None = None
+    pitch_deg: Floats | Any = None
     """Pitch, positive with the nose up [°];
     None where all runs are on planes."""
-    stability_margin_deg: Floats | None = None
+    stability_margin_deg: Floats | Any = None
     """Force-angle margin: by how much the weight's direction may turn before the rover tips over [°];
     None where all runs are on planes."""
-    belly_clearance_m: Floats | None = None
+    belly_clearance_m: Floats | Any = None
     """Least height of the body's underside over the ground, where its belly clearance is given [m];
     NaN elsewhere, None where all runs are on planes."""
 
-    records: Mapping[str, Floats] | None = None
+    records: Mapping[str, Floats] | Any = None
     """With ``trajectories=True``, the records over time of each run by name (``time_s`` and the
     fields after it): arrays with one dimension more, NaN after a run's end."""
-    gradient: Gradient | None = None
+    gradient: Gradient | Any = None
     """Derivatives of the final states, with a last axis of keys, where ``rollout`` was asked for
     ``gradients``; else None. They are differences of whole runs."""
     inputs: Mapping[str, NDArray[Any]] = field(default_factory=dict)

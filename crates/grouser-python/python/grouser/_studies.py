@@ -106,23 +106,23 @@ class TraverseBand(_tables.Band):
     """How these ended, with the share of each way; None where none did."""
     model_weights: Mapping[str, float]
     """The share of the samples that each wheel–soil model computes [-]."""
-    z_m_p2_5: Floats | None = None
+    z_m_p2_5: Floats | Any = None
     """Height of the body's centre of mass [m]; None on a plane."""
-    z_m_p50: Floats | None = None
+    z_m_p50: Floats | Any = None
     """Its median [m]."""
-    z_m_p97_5: Floats | None = None
+    z_m_p97_5: Floats | Any = None
     """Its upper end [m]."""
-    roll_deg_p2_5: Floats | None = None
+    roll_deg_p2_5: Floats | Any = None
     """Roll [°], positive with the right side down; None on a plane."""
-    roll_deg_p50: Floats | None = None
+    roll_deg_p50: Floats | Any = None
     """Its median [°]."""
-    roll_deg_p97_5: Floats | None = None
+    roll_deg_p97_5: Floats | Any = None
     """Its upper end [°]."""
-    pitch_deg_p2_5: Floats | None = None
+    pitch_deg_p2_5: Floats | Any = None
     """Pitch [°], positive with the nose up; None on a plane."""
-    pitch_deg_p50: Floats | None = None
+    pitch_deg_p50: Floats | Any = None
     """Its median [°]."""
-    pitch_deg_p97_5: Floats | None = None
+    pitch_deg_p97_5: Floats | Any = None
     """Its upper end [°]."""
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -204,16 +204,16 @@ class Trajectory(_tables.Tabular):
     """Kinetic energy [J]."""
     potential_energy_j: Floats
     """Potential energy, zero at the start's height [J]."""
-    z_m: Floats | None = None
+    z_m: Floats | Any = None
     """Height of the body's centre of mass [m]; None on a plane."""
-    roll_deg: Floats | None = None
+    roll_deg: Floats | Any = None
     """Roll, positive with the right side down [°]; None on a plane."""
-    pitch_deg: Floats | None = None
+    pitch_deg: Floats | Any = None
     """Pitch, positive with the nose up [°]; None on a plane."""
-    stability_margin_deg: Floats | None = None
+    stability_margin_deg: Floats | Any = None
     """Force-angle margin: by how much the weight's direction may turn before the rover tips over [°];
     None on a plane."""
-    belly_clearance_m: Floats | None = None
+    belly_clearance_m: Floats | Any = None
     """Least height of the body's underside over the ground, where its belly clearance is given [m];
     NaN elsewhere, None on a plane."""
     electrical: Mapping[str, Floats] = field(default_factory=dict)
@@ -221,12 +221,12 @@ class Trajectory(_tables.Tabular):
     and of the battery ``battery_voltage_v`` [V], ``battery_current_a`` [A] and
     ``state_of_charge`` [-], NaN where it is not known: arrays of shape (records,); empty where no
     motor is known."""
-    band: TraverseBand | None = None
+    band: TraverseBand | Any = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
-    gradient: Gradient | None = None
+    gradient: Gradient | Any = None
     """Derivatives of the records, with a last axis of keys, where `simulate` was asked for
     ``gradients``; else None. They are differences of whole runs."""
-    mission: Mission | None = None
+    mission: Mission | Any = None
     """The mission that was driven; None for a run of `simulate`."""
     alternative: str = ""
     """The alternative of the mission; empty where there are none."""

@@ -47,9 +47,9 @@ class Validation(_tables.Tabular):
 
     overall: Mapping[str, Any]
     """All cells."""
-    driven: Mapping[str, Any] | None
+    driven: Mapping[str, Any] | Any
     """The driven cells; None if there are none."""
-    skid: Mapping[str, Any] | None
+    skid: Mapping[str, Any] | Any
     """The skidding cells; None if there are none."""
     groups: tuple[Mapping[str, Any], ...]
     """The cells of each slip angle, driven and skidding."""

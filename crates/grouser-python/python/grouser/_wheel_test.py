@@ -107,7 +107,7 @@ class WheelTest(_tables.Tabular):
     """Slip ratios [-], shape (ratios,)."""
     wheels: Settled
     """Sinkage and forces; fields of shape (loads, angles, ratios)."""
-    band: WheelTestBand | None = None
+    band: WheelTestBand | Any = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
     def _bands(self) -> dict[str, Any]:

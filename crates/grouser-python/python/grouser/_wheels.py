@@ -181,7 +181,7 @@ class Settled(WheelForces):
     flags: NDArray[np.object_]
     """Why each wheel is an extrapolation: names of `FLAGS`, joined by ``;``; empty inside the
     domain."""
-    gradient: Gradient | None = field(default=None, kw_only=True)
+    gradient: Gradient | Any = field(default=None, kw_only=True)
     """The derivatives of the results, with ``gradients``; else None."""
 
     @property
