@@ -22,6 +22,7 @@ mod designs;
 mod errors;
 mod gradients;
 mod ground;
+mod heading_sweep;
 mod interrupt;
 mod learning;
 mod maps;
@@ -77,6 +78,8 @@ mod _core {
     use super::gradients::settle_gradients;
     #[pymodule_export]
     use super::ground::Footprints;
+    #[pymodule_export]
+    use super::heading_sweep::heading_sweep;
     #[pymodule_export]
     use super::interrupt::panic;
     #[pymodule_export]

@@ -50,12 +50,12 @@ pub(crate) struct Runs {
 }
 
 /// Which of some things each run has, if there are several.
-type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
+pub(crate) type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
 
 impl Runs {
     /// Checks that every run has a scenario, a soil where there are some, and numbers in their
     /// ranges.
-    fn new(
+    pub(crate) fn new(
         scenarios: &[PyRef<'_, Document>],
         scenario_index: &Index<'_>,
         soils: &[PyRef<'_, Document>],
@@ -117,7 +117,7 @@ impl Runs {
     }
 
     /// The scenario of a run.
-    fn scenario(&self, place: usize) -> Result<Scenario, ParameterError> {
+    pub(crate) fn scenario(&self, place: usize) -> Result<Scenario, ParameterError> {
         let (base, names_its_model) = &self.bases[self.base_at(place)];
         let mut scenario = base.clone();
         if let Some((soil, model)) = self.soils.get(self.soil_at(place)) {
@@ -143,7 +143,7 @@ impl Runs {
     }
 
     /// The number of a run under a key of its scenario.
-    fn number(&self, place: usize, path: &str) -> Option<f64> {
+    pub(crate) fn number(&self, place: usize, path: &str) -> Option<f64> {
         let own = self.arguments(place).find(|(key, _)| *key == path);
         let varied = || self.of_bases.at(self.base_at(place), place).find(|(key, _)| *key == path);
         if let Some((_, number)) = own.or_else(varied) {
@@ -183,8 +183,26 @@ impl Runs {
         argument.or_else(|| self.of_bases.missing(place)).or_else(|| self.of_soils.missing(place))
     }
 
+    /// Why a run cannot be computed: a number that is out of its range, or NaN.
+    pub(crate) fn why_none(&self, place: usize) -> Option<String> {
+        let outside = self.outside.get(&place).cloned();
+        outside.or_else(|| self.missing(place).map(|name| format!("{name} is NaN")))
+    }
+
+    /// What tells the scenario of a run from others: the bits of all that varies.
+    ///
+    /// * `argument`: one that is left out
+    pub(crate) fn bits_but_for(&self, place: usize, argument: &str) -> Vec<u64> {
+        let (base, soil) = (self.base_at(place), self.soil_at(place));
+        let arguments = self.varied.iter().filter(|([name, _], _)| *name != argument);
+        let arguments = arguments.map(|(_, values)| values[place].to_bits());
+        let keys = self.of_bases.at(base, place).chain(self.of_soils.at(soil, place));
+        let keys = keys.map(|(_, number)| number.to_bits());
+        [base as u64, soil as u64].into_iter().chain(arguments).chain(keys).collect()
+    }
+
     /// The first run whose numbers are invalid, with its place.
-    fn first_misfit(&self) -> Option<(usize, ParameterError)> {
+    pub(crate) fn first_misfit(&self) -> Option<(usize, ParameterError)> {
         let places = (0..self.count).into_par_iter().with_min_len(256);
         let misfit = |place: usize| {
             let error = self.scenario(place).err().filter(|_| self.missing(place).is_none())?;
@@ -334,11 +352,8 @@ pub(crate) fn rollout<'py>(
             return Err(misfit);
         }
         let end = |place: usize| {
-            if let Some(why) = runs.outside.get(&place) {
-                return Ok(End::failed(why.clone()));
-            }
-            if let Some(name) = runs.missing(place) {
-                return Ok(End::failed(format!("{name} is NaN")));
+            if let Some(why) = runs.why_none(place) {
+                return Ok(End::failed(why));
             }
             let scenario = match runs.scenario(place) {
                 Ok(scenario) => scenario,

@@ -58,7 +58,7 @@ from ._designs import BestDesign, design
 from ._forecast import Forecast, forecast
 from ._gradients import Gradient
 from ._heading_band import HeadingBand, HeadingMapBand
-from ._headings import HeadingMap, Headings, heading, heading_map
+from ._headings import HeadingMap, Headings, HeadingSweep, heading, heading_map
 from ._learning import Learner, learn
 from ._maps import map
 from ._measurements import ImportedWheelTests, import_wheel_tests
@@ -122,6 +122,7 @@ __all__ = [
     "Gradient",
     "HeadingBand",
     "HeadingMap",
+    "HeadingSweep",
     "HeadingMapBand",
     "Headings",
     "ImportedTelemetry",

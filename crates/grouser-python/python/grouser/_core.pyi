@@ -512,6 +512,15 @@ def heading(
     rule: Sequence[float],
     gradients: Sequence[str] | None,
 ) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any] | None]: ...
+def heading_sweep(
+    scenario: Document,
+    soils: Sequence[Document],
+    soil_index: NDArray[np.int64] | None,
+    varied: dict[str, _Floats],
+    count: int,
+    steering: str,
+    outside_is_nan: bool,
+) -> tuple[dict[str, Any], dict[str, Any], list[list[int]], list[tuple[int, str]]]: ...
 def simulated_wheel_test(
     soil: Document,
     wheel: Document,

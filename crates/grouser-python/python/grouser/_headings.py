@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _shown, _tables
-from ._arrays import Floats, line, number, whole_number
+from ._arrays import Floats, broadcast, line, number, varied, whole_number
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
@@ -18,6 +18,7 @@ from ._gradients import Gradient, Keys, keys_of, of_columns
 from ._models import MODELS, ByModel, each_model
 from ._studies import columns_of, scenario_of, soil_of
 from ._verdicts import limits_of
+from ._wheels import Outside, names_of, outside_is_nan, soils_of
 
 if TYPE_CHECKING:
     import pandas
@@ -154,6 +155,80 @@ class Headings(_tables.Tabular):
         return f"<Headings on {self.slope_deg[0]:g}°: {band}; as written {steepest}>"
 
 
+@dataclass(frozen=True, eq=False)
+class HeadingSweep(_tables.Entries):
+    """Heading offsets that hold the contour line for many rovers, soils and slopes: arrays of the shape
+    to which slopes and varied numbers broadcast, NaN where no heading holds the contour.
+
+    Examples
+    --------
+    >>> import grouser as gr
+    >>> found = gr.heading(
+    ...     slope_deg=[5.0, 10.0], vary={"soil.friction_angle_deg": [[34.0], [38.0]]}, nominal=True
+    ... )
+    >>> found.shape, bool((found.yaw_deg[0] > found.yaw_deg[1]).all())
+    ((2, 2), True)
+    >>> on_sand = found.to_xarray(dims=["soil.friction_angle_deg", "slope_deg"])
+    >>> bool(on_sand.limit_slope_deg.sel({"soil.friction_angle_deg": 34.0, "slope_deg": 5.0}) < 20.0)
+    True
+    """
+
+    status: NDArray[np.object_]
+    """``ok``, or why no heading offset holds the contour; of an entry without a result, why."""
+    flags: NDArray[np.object_]
+    """Why each entry is an extrapolation: names of `FLAGS`, joined by ``;``."""
+    yaw_deg: Floats
+    """Yaw that holds the contour [°], positive uphill."""
+    slip_ratio: Floats
+    """Slip ratio of every wheel; with wheels steered, of these [-]."""
+    sinkage_mm: Floats
+    """Mean sinkage of the wheels [mm]."""
+    torque_nm: Floats
+    """Torque of all wheels together [N·m]."""
+    energy_j_per_m: Floats
+    """Work of the wheels per metre along the contour [J/m]."""
+    yaw_moment_nm: Floats
+    """Yaw moment left over [N·m]; negative turns the nose downhill."""
+    limit_slope_deg: Floats
+    """The steepest slope on which the contour can be held [°]; NaN where the rover cannot move."""
+    limited_by: NDArray[np.object_]
+    """What ends the curve there, as in `Headings`; None where the rover cannot move."""
+    steering_deg: Floats | Any = None
+    """Steering angle of every wheel that is steered [°], positive uphill; None without
+    ``steering="crab"``."""
+    inputs: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    """What was asked, by name: arrays as given, which broadcast to `shape`; soils by their names, if
+    there were several."""
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of every field."""
+        return self.status.shape
+
+    def _results(self) -> dict[str, Any]:
+        names = [one.name for one in fields(self) if one.name != "inputs"]
+        return {name: it for name, it in columns_of(self, names).items() if it is not None}
+
+    def __repr__(self) -> str:
+        held = int((self.status == "ok").sum())
+        return f"<HeadingSweep of shape {self.shape}: {held} of {len(self)} hold the contour>"
+
+
+@overload
+def heading(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    vary: Mapping[str, ArrayLike],
+    nominal: Literal[True],
+    slope_deg: ArrayLike = ...,
+    steering: Literal["none", "crab"] = ...,
+    model: str | None = ...,
+    outside: Outside = ...,
+    **changes: Any,
+) -> HeadingSweep: ...
+
+
 @overload
 def heading(
     scenario: Scenario | Source | None = None,
@@ -203,8 +278,10 @@ def heading(
     rule: Mapping[str, float] | None = None,
     gradients: Keys | None = None,
     uncertainty: bool | None = None,
+    vary: Mapping[str, ArrayLike] | None = None,
+    outside: Outside = "raise",
     **changes: Any,
-) -> Headings | ByModel[Headings]:
+) -> Headings | ByModel[Headings] | HeadingSweep:
     """The heading offset that holds the contour line, on each slope ([FourWheel], Fig. 10), and
     whether to drive there.
 
@@ -244,13 +321,21 @@ def heading(
         uncertain soil needs ``nominal=True``.
     uncertainty : bool, optional
         Samples are the usual answer: it changes nothing.
+    vary : mapping of str to array_like, optional
+        Numbers of the scenario by their keys, such as ``soil.cohesion_kpa``, ``rover.body.mass_kg`` or
+        ``gravity_m_s2``: they broadcast with the slopes, and with ``soil`` where that is a sequence.
+        It goes with ``nominal=True``, without ``gradients``. Entries that differ in their slopes alone
+        share a curve, which is the dear part.
+    outside : {"raise", "nan"}
+        With ``"nan"`` an entry of ``vary`` with a number out of its range (`range_of`), or with numbers
+        that do not go together, is NaN with a `HeadingSweep.status`; by default it is an error.
     **changes
         Keys of the scenario with other values.
 
     Returns
     -------
     Headings
-        Or `ByModel` of them, for all models.
+        Or `ByModel` of them, for all models; or `HeadingSweep`, with ``vary``.
 
     Raises
     ------
@@ -279,6 +364,16 @@ def heading(
         raise ParameterError(f'steering is {steering!r}, it must be "none" or "crab"', "steering")
     if uncertainty and steering == "crab":
         raise ParameterError('uncertainty goes with steering="none"', "uncertainty")
+    if vary is not None:
+        for name, is_asked in {
+            "nominal=False": not nominal,
+            "gradients": gradients is not None,
+            "model='all'": model == "all",
+        }.items():
+            if is_asked:
+                raise ParameterError(f"vary does not go with {name}: it takes nominal=True", "vary")
+        changes = changes if model is None else {**changes, "model": model}
+        return _sweep(scenario, slope_deg, vary, steering, outside, changes)
     if model == "all":
         settings: dict[str, Any] = {"slope_deg": slope_deg, "steering": steering}
         settings |= {"nominal": nominal, "samples": samples, "seed": seed, "rule": rule}
@@ -310,6 +405,55 @@ def heading(
         gradient=gradient,
         **own,
     )
+
+
+def _sweep(
+    scenario: Scenario | Source | None,
+    slope_deg: ArrayLike,
+    vary: Mapping[str, ArrayLike],
+    steering: str,
+    outside: Outside,
+    changes: dict[str, Any],
+) -> HeadingSweep:
+    """Headings over slopes and numbers that vary."""
+    soil = changes.get("soil")
+    soils: list[Soil] = []
+    places = np.zeros((), dtype=np.int64)
+    if isinstance(soil, (list, tuple, np.ndarray)):
+        soils, places = soils_of(soil)
+        changes = {name: it for name, it in changes.items() if name != "soil"}
+    run = scenario_of(scenario, changes)
+    asked = broadcast(
+        {**varied(vary, taken=("slope_deg",)), "slope_deg": slope_deg}, {"soil": places}
+    )
+    [soil_index] = asked.places
+    rows, limits, order, missing = _core.heading_sweep(
+        run._document,
+        [one._document for one in soils],
+        soil_index if len(soils) > 1 else None,
+        asked.flat,
+        soil_index.size,
+        steering,
+        outside_is_nan(outside),
+    )
+    at, curve = np.array(order, dtype=np.int64).reshape(-1, 2).T
+    ends = {name: it[curve] for name, it in _tables.arrays_of(limits).items()}
+    found = {**_tables.arrays_of(rows), **ends}
+
+    def scattered(name: str) -> NDArray[Any]:
+        words = name in ("status", "flags", "limited_by")
+        cells = np.full(soil_index.size, None if words else np.nan, dtype=object if words else None)
+        if name in found:
+            cells[at] = found[name]
+        return cells
+
+    names = [one.name for one in fields(HeadingSweep) if one.name not in ("inputs", "steering_deg")]
+    names += ["steering_deg"] if steering == "crab" else []
+    columns = {name: scattered(name) for name in names}
+    for place, why in missing:
+        columns["status"][place], columns["flags"][place] = why, ""
+    shaped: dict[str, Any] = {name: it.reshape(asked.shape) for name, it in columns.items()}
+    return HeadingSweep(**shaped, inputs={**names_of(soils, places), **asked.given})
 
 
 @dataclass(frozen=True, eq=False)

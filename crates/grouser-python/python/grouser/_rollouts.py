@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,13 +19,12 @@ from ._studies import SAMPLE, columns_of, scenario_of, standing_of
 from ._wheels import Outside, outside_is_nan, Soils, names_of, soils_of
 
 if TYPE_CHECKING:
-    import pandas
     import xarray
     from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, eq=False)
-class Rollout(_tables.Tabular):
+class Rollout(_tables.Entries):
     """Final states of many runs: arrays of the shape to which the arguments broadcast, (runs,) for
     a sequence of scenarios; NaN where a run could not be computed. Frames are those of a
     `Trajectory`.
@@ -96,25 +95,16 @@ class Rollout(_tables.Tabular):
     scenarios, if there were several; soils have their names; the yaw at the start is
     ``start.yaw_deg``."""
 
+    _DIM: ClassVar[str] = "run"
+
     @property
     def shape(self) -> tuple[int, ...]:
         """The shape of every field."""
         return self.outcome.shape
 
-    def __len__(self) -> int:
-        return self.outcome.size
-
-    def _table(self) -> dict[str, Any]:
-        inputs = {name: np.broadcast_to(it, self.shape) for name, it in self.inputs.items()}
-        return {**inputs, **self._results()}
-
     def _results(self) -> dict[str, Any]:
         ends = {**columns_of(self, SAMPLE), **standing_of(self)}
         return {"outcome": self.outcome, "message": self.message, **ends}
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each run: its inputs, then its final state."""
-        return _tables.frame(self._table())
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
         """A dataset with units in the attributes; records have names that start with ``sample_``.
@@ -126,14 +116,8 @@ class Rollout(_tables.Tabular):
         dims : sequence of str, optional
             Names of the dimensions; by default ``run``, or ``dim_0``, ``dim_1`` … for several.
         """
-        count = len(self.shape)
-        usual = ("run",) if count == 1 else tuple(f"dim_{k}" for k in range(count))
-        names = usual if dims is None else tuple(dims)
-        if len(names) != count:
-            raise ParameterError(
-                f"dims has {len(names)} names, the fields have {count} dimensions", "dims"
-            )
-        data = _tables.with_inputs(_tables.dataset(names, self._results()), names, self.inputs)
+        data = super().to_xarray(dims)
+        names = tuple(map(str, data["outcome"].dims))
         for name, values in (self.records or {}).items():
             data[f"sample_{name}"] = _tables.variable((*names, "sample"), name, values)
         return data

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core, _shown
-from ._errors import present_name
+from ._errors import ParameterError, present_name
 
 if TYPE_CHECKING:
     import pandas
@@ -163,6 +163,58 @@ class Tabular:
             known = () if name == "__dict__" else getattr(self, "__dict__", ())
             meant = present_name(name, known)
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{meant}")
+
+
+class Entries(Tabular):
+    """A result with an entry for each combination of what was asked: arrays of the shape to which the
+    arguments broadcast."""
+
+    __slots__ = ()
+
+    #: The name of the dimension, where there is one.
+    _DIM: ClassVar[str] = "dim_0"
+    inputs: Mapping[str, NDArray[Any]]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of every field."""
+        raise NotImplementedError
+
+    def _results(self) -> dict[str, Any]:
+        """Fields by name; what was asked may be among them."""
+        raise NotImplementedError
+
+    def __len__(self) -> int:
+        return int(np.prod(self.shape))
+
+    def _table(self) -> dict[str, Any]:
+        inputs = {name: np.broadcast_to(it, self.shape) for name, it in self.inputs.items()}
+        return {**inputs, **self._results()}
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each entry, in the order of the flattened fields: inputs first,
+        then results."""
+        return frame(self._table())
+
+    def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
+        """A dataset with units in the attributes. Inputs are coordinates, each over the dimensions
+        along which it was given: with ``dims=["load_n", "slip_ratio"]`` loads and slip ratios index
+        the dimensions of their names.
+
+        Parameters
+        ----------
+        dims : sequence of str, optional
+            Names of the dimensions; by default ``dim_0``, ``dim_1`` …, and ``run`` for runs in a row.
+        """
+        count = len(self.shape)
+        usual = (self._DIM,) if count == 1 else tuple(f"dim_{k}" for k in range(count))
+        names = usual if dims is None else tuple(dims)
+        if len(names) != count:
+            raise ParameterError(
+                f"dims has {len(names)} names, the fields have {count} dimensions", "dims"
+            )
+        results = {name: it for name, it in self._results().items() if name not in self.inputs}
+        return with_inputs(dataset(names, results), names, self.inputs)
 
 
 class Band(Tabular):

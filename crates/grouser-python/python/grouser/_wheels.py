@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Literal, Union
+from typing import Any, Literal, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,10 +16,6 @@ from ._descriptions import Rover, Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
 from ._gradients import Gradient, Keys, keys_of, of_rows
 from ._validity import flags_of
-
-if TYPE_CHECKING:
-    import pandas
-    import xarray
 
 #: One soil, or a sequence that broadcasts with the other arguments.
 Soils = Union[Soil, Source, Sequence[Any], NDArray[np.object_]]
@@ -41,7 +37,7 @@ _BRIEF = ("sinkage_mm", "drawbar_pull_n", "side_force_n", "torque_nm")
 
 
 @dataclass(frozen=True, eq=False)
-class WheelForces(_tables.Tabular):
+class WheelForces(_tables.Entries):
     """Forces and moments of the soil on wheels, about the hub, in the wheel frame (x forward, y
     left, z up).
 
@@ -100,35 +96,9 @@ class WheelForces(_tables.Tabular):
         """The shape of every field."""
         return self.slip_ratio.shape
 
-    def _table(self) -> dict[str, Any]:
+    def _results(self) -> dict[str, Any]:
         own = (one.name for one in fields(self) if one.name not in ("inputs", "gradient"))
-        inputs = {name: np.broadcast_to(it, self.shape) for name, it in self.inputs.items()}
-        return {**inputs, **{name: getattr(self, name) for name in own}}
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each wheel, in the order of the flattened fields: inputs first,
-        then results."""
-        return _tables.frame(self._table())
-
-    def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
-        """A dataset with units in the attributes. Inputs are coordinates, each over the dimensions
-        along which it was given: with ``dims=["load_n", "slip_ratio"]`` loads and slip ratios index
-        the dimensions of their names.
-
-        Parameters
-        ----------
-        dims : sequence of str, optional
-            Names of the dimensions; by default ``dim_0``, ``dim_1`` …
-        """
-        names = (
-            tuple(dims) if dims is not None else tuple(f"dim_{k}" for k in range(len(self.shape)))
-        )
-        if len(names) != len(self.shape):
-            raise ParameterError(
-                f"dims has {len(names)} names, the fields have {len(self.shape)} dimensions", "dims"
-            )
-        results = {name: it for name, it in self._table().items() if name not in self.inputs}
-        return _tables.with_inputs(_tables.dataset(names, results), names, self.inputs)
+        return {name: getattr(self, name) for name in own}
 
     def _shown(self) -> dict[str, Any]:
         table = self._table()
