@@ -194,6 +194,22 @@ pub enum UrdfError {
         /// [kg]
         mass: f64,
     },
+    /// Masses in another unit than lengths.
+    #[error(
+        "wheel {link} has a radius of {radius} m, a width of {width} m and a mass of {mass} kg, and \
+         so is heavier than any metal: its mass looks like grams\nhint: URDF has kilograms: divide all \
+         masses and moments of inertia by 1000"
+    )]
+    Grams {
+        /// Its link.
+        link: String,
+        /// [m]
+        radius: f64,
+        /// [m]
+        width: f64,
+        /// [kg]
+        mass: f64,
+    },
     /// Sides that differ.
     #[error(
         "{0} are not alike on both sides: joints {1} and {2} turn about axes at different places"

@@ -72,10 +72,12 @@ impl Found {
         }
         let mut wheels = wheels;
         let suspension = Suspension::of(robot, &wheels, &body, options)?;
+        let hubs: Vec<Vector3<f64>> = wheels.iter().map(|it| it.centre).collect();
         notes.extend(level(&mut wheels));
         let mounts = wheels
             .iter()
-            .map(|wheel| mount(robot, wheel, &body, &mut notes))
+            .zip(hubs)
+            .map(|(wheel, hub)| mount(robot, wheel, hub, &body, &mut notes))
             .collect::<Result<Vec<_>, _>>()?;
         let mut body = body;
         if let Some(why) = body.flaw() {
@@ -255,9 +257,11 @@ fn found_wheel(robot: &Robot, wheel: &Wheel, body: &Together) -> FoundWheel {
     }
 }
 
+/// * `hub`: where the links have the wheel's centre
 fn mount(
     robot: &Robot,
     wheel: &Wheel,
+    hub: Vector3<f64>,
     body: &Together,
     notes: &mut Vec<String>,
 ) -> Result<Mount, UrdfError> {
@@ -274,6 +278,11 @@ fn mount(
     let (radius, width, mass) = (wheel.radius, wheel.width, together.mass);
     if mass < AIR * PI * radius * radius * width {
         return Err(UrdfError::Millimetres { link: name.clone(), radius, width, mass });
+    }
+    /// The density of osmium [kg/m³]: no wheel is heavier.
+    const METAL: f64 = 22_600.0;
+    if mass > METAL * PI * radius * radius * width {
+        return Err(UrdfError::Grams { link: name.clone(), radius, width, mass });
     }
     check_mass(format!("link {name}, a wheel"), mass)?;
     let steering = wheel.steered.map(|link| {
@@ -296,7 +305,7 @@ fn mount(
     });
     // Zero is at an end of what it turns: no rover steers so.
     let steering = steering.filter(|(limit, _)| *limit > 0.0);
-    let mut inertia = diagonal(&together.inertia_about(wheel.centre));
+    let mut inertia = diagonal(&together.inertia_about(hub));
     if let Some(why) = together.flaw() {
         inertia = of_cylinder(together.mass, wheel);
         notes.push(format!(

@@ -124,6 +124,13 @@ pub(super) fn rim(
     let collides = of(true);
     let found = if collides.is_empty() { of(false) } else { collides };
     let largest = found.iter().max_by(|one, other| one.0.0.total_cmp(&other.0.0));
+    let most = largest.map_or(0.0, |it| it.0.0);
+    let tyres: Vec<Tyre> = found
+        .iter()
+        .filter(|it| it.0.0 > (1.0 - ALIKE) * most)
+        .map(|((_, width, middle), _)| (*width, *middle))
+        .collect();
+    let side_by_side = side_by_side(&tyres);
     let radii: Vec<f64> = found.iter().map(|it| it.0.0).collect();
     let differ = radii.iter().any(|it| (it - radii[0]).abs() > 1e-6);
     let note = largest.and_then(|(_, shape)| match &shape.kind {
@@ -134,6 +141,11 @@ pub(super) fn rim(
         }
         _ => None,
     });
+    let several = side_by_side.filter(|(width, _)| *width > (1.0 + ALIKE) * tyres[0].0);
+    let several = several.map(|(width, _)| {
+        format!("{} tyres side by side, together {} m wide", tyres.len(), four_digits(width))
+    });
+    let notes: Vec<String> = note.into_iter().chain(several).collect();
     let place = |shape: &&LinkShape| (frame * shape.origin).translation.vector;
     let somewhere = || shapes.first().map_or(frame.translation.vector, place);
     let sphere = shapes.iter().find_map(|it| match it.kind {
@@ -141,15 +153,39 @@ pub(super) fn rim(
         _ => None,
     });
     let radius = options.wheel_radius.or(largest.map(|it| it.0.0)).or(sphere);
-    let width = options.wheel_width.or(largest.map(|it| it.0.1));
+    let width = options.wheel_width.or(side_by_side.map(|it| it.0));
     let is_known = radius.is_some() && width.is_some();
     Ok(Rim {
         radius,
         width,
-        centre: largest.map_or_else(somewhere, |it| it.0.2),
-        note: note.filter(|_| options.wheel_radius.is_none()),
+        centre: side_by_side.map_or_else(somewhere, |it| it.1),
+        note: Some(notes.join("; ")).filter(|it| !it.is_empty() && options.wheel_radius.is_none()),
         lacks: if is_known { String::new() } else { lacks(&shapes, meshes) },
     })
+}
+
+/// Radii that differ by less are alike [-].
+const ALIKE: f64 = 1e-3;
+
+/// The width of a tyre [m], and its middle in the root's frame [m].
+type Tyre = (f64, Vector3<f64>);
+
+/// Tyres of one wheel as one: as wide as what they cover of its axle, and in their middle.
+fn side_by_side(tyres: &[Tyre]) -> Option<Tyre> {
+    let first = tyres.first()?;
+    if tyres.iter().all(|it| it == first) {
+        return Some(*first);
+    }
+    let mut spans: Vec<[f64; 2]> =
+        tyres.iter().map(|(width, at)| [at.y - 0.5 * width, at.y + 0.5 * width]).collect();
+    spans.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    let begin = spans.first()?[0];
+    let cover = |(covered, until): (f64, f64), [low, high]: &[f64; 2]| {
+        (covered + (high - until.max(*low)).max(0.0), until.max(*high))
+    };
+    let (width, end) = spans.iter().fold((0.0, begin), cover);
+    let middle = tyres.iter().map(|(_, at)| at).sum::<Vector3<f64>>() / tyres.len() as f64;
+    Some((width, Vector3::new(middle.x, 0.5 * (begin + end), middle.z)))
 }
 
 fn lacks(shapes: &[&LinkShape], meshes: &Meshes<'_>) -> String {

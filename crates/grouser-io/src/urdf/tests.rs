@@ -536,6 +536,11 @@ fn other_names_and_units_are_named() {
         (cart(CYLINDER, ""), passive, "no link is called caster\nhint: the links are body, fl"),
         (cart(CYLINDER, ""), joints, "joint fl_joint, which leads to link fl, is called so"),
         (cart(&large, ""), UrdfOptions::default(), "look like millimetres"),
+        (
+            cart(CYLINDER, "").replace("mass value=\"", "mass value=\"1000"),
+            UrdfOptions::default(),
+            "looks like grams",
+        ),
     ] {
         let refused = import(&text, &options).expect_err(expected).to_string();
         assert!(refused.contains(expected), "{refused}");
@@ -560,5 +565,28 @@ fn what_robots_leave_out_is_estimated_and_said() {
         "{:?}",
         rover.notes
     );
-    read(&askew, &UrdfOptions::default()).expect("all wheels on one plane");
+    let level = read(&cart(CYLINDER, ""), &UrdfOptions::default()).expect("a rover").value;
+    let raised = read(&askew, &UrdfOptions::default()).expect("all wheels on one plane").value;
+    assert_eq!(raised.mounts()[0].unit.inertia, level.mounts()[0].unit.inertia);
+}
+
+/// Two tyres on one axle are a wheel between them, in whichever order they are told.
+#[test]
+fn tyres_side_by_side_are_one_wheel() {
+    let tyre = |y: &str| {
+        CYLINDER.replace("0.08", "0.04").replace("<origin ", &format!("<origin xyz=\"0 {y} 0\" "))
+    };
+    let one = found(&cart(CYLINDER, ""), &UrdfOptions::default());
+    for [first, second] in [["0.05", "-0.05"], ["-0.05", "0.05"]] {
+        let rover = found(&cart(&(tyre(first) + &tyre(second)), ""), &UrdfOptions::default());
+        for (twin, wheel) in rover.wheels.iter().zip(&one.wheels) {
+            assert!((twin.width - 0.08).abs() < 1e-12, "{twin:?}");
+            assert!((twin.position[1] - wheel.position[1]).abs() < 1e-12, "{twin:?} {wheel:?}");
+        }
+        let said = "2 tyres side by side, together 0.08 m wide";
+        assert!(rover.notes.iter().any(|it| it.contains(said)), "{:?}", rover.notes);
+    }
+    // What is told twice is one.
+    let twice = found(&cart(&(CYLINDER.to_owned() + CYLINDER), ""), &UrdfOptions::default());
+    assert_eq!(twice.wheels, one.wheels);
 }
