@@ -174,7 +174,9 @@ impl DriveValidationQuestion {
         let split = validation.judged_on;
         let drives = self.drives.iter().filter(|it| it.split == split).count();
         let cells = validation.cells.iter().filter(|it| it.split == split).count();
-        let on = format!("the {} set, {drives} drives in {cells} cells", split.name());
+        let [drives, cells] = [(drives, "drive"), (cells, "cell")]
+            .map(|(count, one)| counted(count as u64, one, &format!("{one}s")));
+        let on = format!("the {} set, {drives} in {cells}", split.name());
         let none_there = match split {
             Split::Test => "",
             Split::Training => " (the hash puts no drive into the test set)",

@@ -147,13 +147,16 @@ fn mean_over(values: &[f64]) -> Option<Mean> {
 }
 
 /// Models, then yardsticks, on the cells of a set, best first.
-pub(super) fn judged(cells: &[DriveCell], models: &[Model], split: Split) -> Vec<JudgedPrediction> {
-    let spreads: DriveValues = std::array::from_fn(|place| spread(cells, place));
-    let cells: Vec<&DriveCell> = cells.iter().filter(|it| it.split == split).collect();
+///
+/// Yardsticks know the cells of both sets: the mean of a set of one cell would be that cell.
+pub(super) fn judged(all: &[DriveCell], models: &[Model], split: Split) -> Vec<JudgedPrediction> {
+    let spreads: DriveValues = std::array::from_fn(|place| spread(all, place));
+    let is_of_set = |it: &&DriveCell| it.split == split;
+    let cells: Vec<&DriveCell> = all.iter().filter(is_of_set).collect();
     let trials: usize = cells.iter().map(|it| it.trials).sum();
     let judge = |by: Predictor, without: usize, of: &dyn Fn(usize) -> Vec<Option<f64>>| {
         let errors: [Option<Errors>; QUANTITIES] =
-            std::array::from_fn(|place| errors(&cells, place, &of(place)));
+            std::array::from_fn(|place| errors(&cells, place, &of(place), middle(all, place)?));
         let scores = std::array::from_fn(|place| Some(errors[place]?.rmse / spreads[place]?));
         let score = mean_score(scores.into_iter().flatten());
         JudgedPrediction { by, split, errors, scores, score, trials: [trials, without] }
@@ -165,18 +168,27 @@ pub(super) fn judged(cells: &[DriveCell], models: &[Model], split: Split) -> Vec
         };
         judge(Predictor::Model(it.clone()), without, &of)
     });
-    let of_yardsticks = [Yardstick::Mean, Yardstick::Interpolation]
-        .into_iter()
-        .map(|it| judge(Predictor::Yardstick(it), 0, &|place| over_slopes(&cells, place, it)));
+    let of_yardsticks = [Yardstick::Mean, Yardstick::Interpolation].into_iter().map(|it| {
+        let of = |place: usize| {
+            let predicted = over_slopes(all, place, it).into_iter().zip(all);
+            predicted.filter(|(_, cell)| cell.split == split).map(|(value, _)| value).collect()
+        };
+        judge(Predictor::Yardstick(it), 0, &of)
+    });
     [best_first(of_models.collect()), best_first(of_yardsticks.collect())].concat()
 }
 
 /// The standard deviation of a quantity between cells; `None` where it does not differ.
 fn spread(cells: &[DriveCell], place: usize) -> Option<f64> {
-    let values = || cells.iter().map(|it| it.measured[place].map(|it| it.value));
-    let middle = mean(values())?;
-    let square = mean(values().map(|it| it.map(|it| (it - middle).powi(2))))?;
+    let middle = middle(cells, place)?;
+    let values = cells.iter().map(|it| it.measured[place].map(|it| it.value));
+    let square = mean(values.map(|it| it.map(|it| (it - middle).powi(2))))?;
     (square > 0.0).then(|| square.sqrt())
+}
+
+/// The mean of a quantity over cells.
+fn middle(cells: &[DriveCell], place: usize) -> Option<f64> {
+    mean(cells.iter().map(|it| it.measured[place].map(|it| it.value)))
 }
 
 fn best_first(mut all: Vec<JudgedPrediction>) -> Vec<JudgedPrediction> {
@@ -186,13 +198,19 @@ fn best_first(mut all: Vec<JudgedPrediction>) -> Vec<JudgedPrediction> {
 }
 
 /// The errors of a quantity; `None` where it was not measured.
-fn errors(cells: &[&DriveCell], place: usize, predicted: &[Option<f64>]) -> Option<Errors> {
-    let all = mean(cells.iter().map(|it| it.measured[place].map(|it| it.value)))?;
+///
+/// * `middle`: what stands in for a prediction
+fn errors(
+    cells: &[&DriveCell],
+    place: usize,
+    predicted: &[Option<f64>],
+    middle: f64,
+) -> Option<Errors> {
     let pairs = cells.iter().zip(predicted).filter_map(|(cell, predicted)| {
         let Mean { value, rows, deviation } = cell.measured[place]?;
         Some(Comparison {
             measured: value,
-            predicted: predicted.unwrap_or(all),
+            predicted: predicted.unwrap_or(middle),
             trials: rows,
             repeatability: deviation,
             scatter: None,
@@ -203,7 +221,7 @@ fn errors(cells: &[&DriveCell], place: usize, predicted: &[Option<f64>]) -> Opti
 
 /// What a yardstick predicts for each cell: the slope is what it interpolates over, all other
 /// conditions alike.
-fn over_slopes(cells: &[&DriveCell], place: usize, yardstick: Yardstick) -> Vec<Option<f64>> {
+fn over_slopes(cells: &[DriveCell], place: usize, yardstick: Yardstick) -> Vec<Option<f64>> {
     let mut series: Vec<Conditions> = Vec::new();
     let mut predicted = vec![None; cells.len()];
     let mut placed = Vec::new();
@@ -271,5 +289,26 @@ mod tests {
         let mean = found.iter().find(|it| it.by == Predictor::Yardstick(Yardstick::Mean));
         assert!((mean.unwrap().score.unwrap() - 1.0).abs() < 1e-12);
         assert_eq!(found[0].trials, [2, 1]);
+    }
+
+    /// Of three cells one is in the test set: its yardsticks know the two others as well.
+    #[test]
+    fn the_mean_of_one_cell_is_not_that_cell() {
+        let training = |slope: f64, measured: f64| JudgedStretch {
+            split: Split::Training,
+            ..reading(1, slope, measured, Some(measured))
+        };
+        let readings =
+            vec![training(0.0, 0.1), training(0.2, 0.3), reading(0, 0.1, 0.26, Some(0.25))];
+        let found = judged(&cells_of(readings, 1), &[Model::default()], Split::Test);
+        let rmse = |place: usize| found[place].errors[0].unwrap().rmse;
+        assert_eq!(found[0].by, Predictor::Model(Model::default()));
+        assert!((rmse(0) - 0.01).abs() < 1e-12, "{found:?}");
+        let by = |yardstick| {
+            let place = found.iter().position(|it| it.by == Predictor::Yardstick(yardstick));
+            rmse(place.unwrap())
+        };
+        assert!((by(Yardstick::Mean) - 0.04).abs() < 1e-12, "{found:?}");
+        assert!((by(Yardstick::Interpolation) - 0.06).abs() < 1e-12, "{found:?}");
     }
 }
