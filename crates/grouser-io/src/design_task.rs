@@ -18,6 +18,7 @@ use super::read::{Written, understood, written};
 use super::source::Source;
 use super::tree::{Companion, Entry, Node, Value};
 use super::unit::DEG;
+use super::values::Described as _;
 use super::varied::{Key, Numbers as _, Varied};
 use grouser_core::contact::Model;
 use grouser_core::simulation::Scenario;
@@ -320,8 +321,37 @@ fn candidate(
         ends.sort_by(f64::total_cmp);
         free_key(&varied, key, ends, tree, "tied")?;
     }
+    check_moves(&varied, free, tied, tree)?;
     let chosen = choice.iter().map(|(key, node)| (key.clone(), node.to_json())).collect();
     Ok(RoverChoice { chosen, grounds, base, given })
+}
+
+/// Checks that every free number leaves a rover at one of its ends at least, alone or together with the
+/// others: wheels of one rover stand on one plane.
+fn check_moves(
+    scenario: &Varied<Scenario>,
+    free: &[(String, [f64; 2])],
+    tied: &[TiedNumber],
+    tree: &Node,
+) -> Result<(), DocumentError> {
+    let at = |places: &[usize], end: usize| {
+        let own = places.iter().map(|place| (&*free[*place].0, free[*place].1[end]));
+        let tied = tied.iter().filter(|it| places.contains(&it.free));
+        let tied = tied.map(|it| (&*it.key, it.sign * free[it.free].1[end]));
+        scenario.value.with(own.chain(tied))
+    };
+    let all: Vec<usize> = (0..free.len()).collect();
+    for (place, (key, _)) in free.iter().enumerate() {
+        let alone = [0, 1].map(|end| at(&[place], end));
+        let [Err(misfit), Err(_)] = alone else { continue };
+        if [0, 1].iter().all(|end| at(&all, *end).is_err()) {
+            let origin = tree.origin_of(&format!("free.{key}"));
+            return Err(DocumentError::at(origin, *misfit.problem).with_hint(format!(
+                "{key} alone leaves no rover: what has to move with it stands under [tied]"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// The overrides with the values that a design gives some of its keys.

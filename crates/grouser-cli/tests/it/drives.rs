@@ -200,7 +200,8 @@ fn drives_without_a_word_on_slip_are_refused_with_the_reason() {
     for step in 0..600 {
         let time = 0.1 * f64::from(step);
         // The same share of the wheels' way, all the time.
-        rows.push_str(&format!("{time},{},0,0,5,0{}\n", 0.0475 * time, ",0.5".repeat(4)));
+        let cells = [time, 0.0475 * time, 0.0, 0.0, 5.0, 0.0, 0.5, 0.5, 0.5, 0.5];
+        rows += &(cells.map(|it| it.to_string()).join(",") + "\n");
     }
     place.write("drives/odometry.csv", rows);
     let line = "validate --drives drives --rover hakuto --soil toyoura";

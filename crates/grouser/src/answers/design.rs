@@ -94,7 +94,11 @@ impl DesignQuestion {
         answer.screen = vec![
             Displayed::Words(lines.join("\n") + "\n\n"),
             Displayed::Rows(Arc::clone(&limits), limits_in_brief(&limits)),
-            Displayed::Words("\n".to_owned()),
+            Displayed::Words(if is_by_samples(&design) {
+                "\nOn the soil as its document has it:\n".to_owned()
+            } else {
+                "\n".to_owned()
+            }),
             Displayed::Rows(Arc::clone(&designs), brief.clone()),
         ];
         for line in lines {
@@ -106,7 +110,7 @@ impl DesignQuestion {
             limits_in_brief(&limits),
         );
         answer.rows(
-            "The rover as given and as found, by each model, on the soil as its document has it",
+            "What it was and what was found, by each model, on the soil as its document has it",
             &designs,
             brief.clone(),
         );
@@ -172,8 +176,9 @@ impl DesignQuestion {
         };
         let found = design.candidate;
         let (given, own) = (task.model(0), task.model(found));
+        let first = if task.candidates[0].chosen.is_empty() { "as given" } else { "first choice" };
         let mut rows = vec![
-            row("as given", 0, given, &task.candidates[0].given),
+            row(first, 0, given, &task.candidates[0].given),
             row(FOUND, found, own, &design.values),
         ];
         let question = Question::on_course(task.candidates[found].grounds[0].course);
@@ -201,14 +206,16 @@ impl DesignQuestion {
         let numbers =
             self.numbers_in_words(&task.candidates[design.candidate].chosen, &design.values);
         let aim = self.aim();
+        let is_least = design.certificate.better == 0;
         let mut lines = vec![format!(
-            "{aim} is {} at the least, with {numbers}.",
-            four_digits(design.objective)
+            "{aim} is {} {}, with {numbers}.",
+            four_digits(design.objective),
+            if is_least { "at the least" } else { "at the best that was found" }
         )];
-        let uncertain = design.kept.iter().find_map(|it| it.share);
-        if uncertain.is_some() {
+        if is_by_samples(design) {
             lines.push(format!(
-                "The soil is uncertain: every limit is to be kept with a probability of {}.",
+                "The soil is uncertain: that is the mean over samples, and every limit is to be kept \
+                 with a probability of {}.",
                 four_digits(task.probability)
             ));
         }
@@ -218,7 +225,7 @@ impl DesignQuestion {
         lines.extend(models_line(design, rows));
         lines.extend(self.choices_line(design, rows));
         lines.extend(domain_line(findings));
-        if design.certificate.better > 0 {
+        if !is_least {
             lines.push("It is not the least: designs near it are better.".to_owned());
         }
         let it = design.certificate;
@@ -366,11 +373,15 @@ impl DesignQuestion {
         let traded = [first, second].map(|it| it.name().to_owned());
         let names: Vec<String> = own.chain(traded).collect();
         answer.rows("Designs along the trade-off", &table, names.clone());
-        answer.screen.push(Displayed::Words(format!(
-            "\nBetween the best {} and the best {}:\n",
-            first.name(),
-            second.name()
-        )));
+        let is_one = trade
+            .iter()
+            .all(|it| (it.candidate, &it.values) == (trade[0].candidate, &trade[0].values));
+        let (first, second) = (first.name(), second.name());
+        answer.screen.push(Displayed::Words(if is_one {
+            format!("\nOne design has the best {first} and the best {second}:\n")
+        } else {
+            format!("\nBetween the best {first} and the best {second}:\n")
+        }));
         answer.screen.push(Displayed::Rows(Arc::clone(&table), names));
         answer.results.push(Member::rows("trade", Arc::clone(&table)));
         answer.tables.push(("trade".into(), table));
@@ -469,6 +480,11 @@ fn drawn(study: &DesignStudy, design: &BestDesign, traded: [Measure; 2]) -> Opti
         lines.push(format!("{} × {:.0} mm", grousers.count, 1e3 * grousers.height));
     }
     Some(WheelShape { wheel, sinkage, lines })
+}
+
+/// Whether a design was found by samples of a soil that is uncertain.
+fn is_by_samples(design: &BestDesign) -> bool {
+    design.kept.iter().any(|it| it.share.is_some())
 }
 
 /// A sentence on flags.

@@ -35,6 +35,7 @@ use grouser_io::design::Measure;
 use grouser_io::design_task::DesignTask;
 
 pub use self::answer::{BestDesign, Certificate, KeptLimit, Nearest, NoDesign};
+use self::limits::size;
 pub use self::limits::{DesignLimit, LimitSide};
 use self::measured::MeasuredGround;
 pub use self::measured::Measures;
@@ -103,9 +104,15 @@ impl DesignStudy {
         count: usize,
         go_on: GoOn<'_>,
     ) -> Result<Vec<BestDesign>, NoDesign> {
-        let weights = measures.map(|measure| {
+        /// What the other measure counts, which decides between designs that are alike in the one, over
+        /// the sizes of both [-].
+        const OTHER: f64 = 1e-6;
+        let of_ends = [measures, [measures[1], measures[0]]];
+        let weights = of_ends.map(|[one, other]| {
             let mut weights = [0.0; Measure::COUNT];
-            weights[measure.place()] = if measure.is_to_be_large() { -1.0 } else { 1.0 };
+            let sign = |it: Measure| if it.is_to_be_large() { -1.0 } else { 1.0 };
+            weights[one.place()] = sign(one);
+            weights[other.place()] = sign(other) * OTHER * size(one) / size(other);
             weights
         });
         let of = |weights| Sought { weights, extra: None, near: None, go_on };
