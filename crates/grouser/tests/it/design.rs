@@ -360,6 +360,7 @@ fn documents_that_say_nothing_that_can_be_are_refused_where_they_say_it() {
             ),
             "what it is tied to is not free",
         ),
+        (format!("{mass}\"rover.mount.0.position_m.2\" = [-0.2, -0.1]"), "alone leaves no rover"),
         (
             format!(
                 "{mass}\"rover.mount.0.position_m.1\" = [0.1, 0.2]\n[tied]\n\
