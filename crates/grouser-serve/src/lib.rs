@@ -27,6 +27,7 @@ mod api;
 mod asked;
 mod assets;
 mod body;
+mod browser_page;
 mod connection;
 mod console;
 mod folder;
@@ -39,5 +40,6 @@ mod runs;
 mod server;
 mod token;
 
+pub use browser_page::BrowserPage;
 pub use limits::Limits;
 pub use server::{ServeError, Server, Settings};
