@@ -19,21 +19,26 @@ use crate::served::{Reply, Served};
 const LONG: Duration = Duration::from_secs(60);
 /// Who moves sliders.
 const CLIENTS: usize = 50;
-/// Time between two places of a slider.
-const PAUSE: Duration = Duration::from_secs(1);
+/// Time between two places of a slider that is dragged, and after the last of them.
+const STEP: Duration = Duration::from_millis(200);
+const PAUSE: Duration = Duration::from_secs(4);
+/// Places of a drag; at the last one the whole answer is waited for.
+const PLACES: usize = 5;
 
 /// Times from question to answer: of the soil as written, and of 200 samples.
 #[derive(Default)]
 struct Times {
     nominal: Mutex<Vec<Duration>>,
     band: Mutex<Vec<Duration>>,
-    /// Questions that were too many.
+    /// Questions that were too many, or waited too long.
     refused: AtomicUsize,
 }
 
 impl Times {
     /// A slider that moves to another place.
-    fn slide(&self, server: &Served, place: usize) {
+    ///
+    /// * `leaves`: after which time it moves on, whether the answer is there or not
+    fn slide(&self, server: &Served, place: usize, leaves: Option<Duration>) {
         let slope = 5.0 + (place % 37) as f64 * 0.25;
         let friction = 33.0 + (place % 11) as f64 * 0.3;
         let question = json!({
@@ -42,11 +47,15 @@ impl Times {
         });
         let began = Instant::now();
         let mut stream = server.connect();
+        stream.set_read_timeout(Some(leaves.unwrap_or(Duration::from_secs(90)))).unwrap();
         stream.write_all(post(server, "heading", &question.to_string()).as_bytes()).unwrap();
         for line in BufReader::new(stream).lines() {
-            let Ok(line) = line else { return };
+            let Ok(line) = line else {
+                assert!(leaves.is_some(), "an answer hangs");
+                return;
+            };
             if line.contains("grouser.error.v1") {
-                assert!(line.contains("too many"), "{line}");
+                assert!(["too many", "too long"].iter().any(|it| line.contains(it)), "{line}");
                 self.refused.fetch_add(1, Ordering::Relaxed);
             }
             if line.contains("grouser.heading.v1") {
@@ -167,7 +176,7 @@ fn many_move_sliders_while_others_mean_harm() {
     let server = Served::start(&Settings { folder: Some(folder), ..Settings::default() });
 
     let alone = Times::default();
-    (0..100).for_each(|place| alone.slide(&server, place));
+    (0..100).for_each(|place| alone.slide(&server, place, None));
     alone.report("one client");
     let before = memory("VmRSS");
 
@@ -179,13 +188,18 @@ fn many_move_sliders_while_others_mean_harm() {
             let (server, together) = (&server, &together);
             scope.spawn(move || {
                 thread::sleep(PAUSE * u32::try_from(client).unwrap() / 50);
-                for place in 0.. {
+                for place in 7 * client.. {
                     let moved = Instant::now();
-                    together.slide(server, 7 * client + place);
+                    let is_last = place % PLACES == 0;
+                    together.slide(server, place, (!is_last).then_some(STEP));
                     if began.elapsed() > LONG {
                         break;
                     }
-                    thread::sleep(PAUSE.saturating_sub(moved.elapsed()));
+                    thread::sleep(if is_last {
+                        PAUSE
+                    } else {
+                        STEP.saturating_sub(moved.elapsed())
+                    });
                 }
             })
         });
@@ -224,6 +238,6 @@ fn many_move_sliders_while_others_mean_harm() {
         thread::sleep(Duration::from_millis(50));
     }
     let after = Times::default();
-    (0..20).for_each(|place| after.slide(&server, place));
+    (0..20).for_each(|place| after.slide(&server, place, None));
     after.report("one client afterwards");
 }
