@@ -10,13 +10,11 @@
 mod affine;
 pub(crate) mod beside;
 pub(crate) mod metadata;
+mod opened_file;
 mod reference;
 
-use std::fs::File;
-use std::io::{Read as _, Seek as _, SeekFrom};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
-use tiff_reader::source::TiffSource;
 use tiff_reader::{ByteOrder, Ifd, OpenOptions, Tag, TiffError, TiffFile, TiffSample};
 
 use crate::coordinate_system::{CoordinateSystem, DIRECTORY, DOUBLES, TEXT};
@@ -25,6 +23,7 @@ use crate::heights::{Heights, checked_cells};
 use crate::{Content, MapPath, Raster, ReadOptions};
 use beside::Sidecars;
 use metadata::Scaling;
+use opened_file::OpenedFile;
 use reference::Georeference;
 
 /// Tags of TIFF 6.0, GeoTIFF and GDAL.
@@ -59,39 +58,6 @@ pub fn read<'p>(
         raster_of(&tiff, length, &beside, options)
     };
     raster().map_err(|fault| RasterError::new(path.path, fault))
-}
-
-/// A file that was opened, for the decoder.
-struct OpenedFile {
-    file: Mutex<File>,
-    length: u64,
-    name: String,
-}
-
-impl OpenedFile {
-    fn of(path: MapPath<'_>) -> std::io::Result<Self> {
-        let file = path.opened()?;
-        let length = file.metadata()?.len();
-        Ok(Self { file: Mutex::new(file), length, name: path.path.display().to_string() })
-    }
-}
-
-impl TiffSource for OpenedFile {
-    fn len(&self) -> u64 {
-        self.length
-    }
-
-    fn read_exact_at(&self, offset: u64, len: usize) -> Result<Vec<u8>, TiffError> {
-        let (length, data_len) = (len as u64, self.length);
-        if offset.checked_add(length).is_none_or(|end| end > data_len) {
-            return Err(TiffError::OffsetOutOfBounds { offset, length, data_len });
-        }
-        let mut bytes = vec![0; len];
-        let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
-        let read = file.seek(SeekFrom::Start(offset)).and_then(|_| file.read_exact(&mut bytes));
-        read.map_err(|error| TiffError::Io(error, self.name.clone()))?;
-        Ok(bytes)
-    }
 }
 
 /// Reads what a file holds.

@@ -11,7 +11,7 @@ use hyper::{Response, StatusCode};
 use tokio::sync::{mpsc, oneshot};
 
 use crate::asked::Read;
-use crate::body::{Line, Lines, ReplyBody};
+use crate::body::{AnswerLines, ReplyBody, SentLine};
 use crate::console::Console;
 use crate::refusal::Refusal;
 
@@ -29,7 +29,7 @@ pub(crate) async fn answer(
     // From here on whoever hangs up is not asking any more.
     let (asking, go_on) = console.runs.asking();
     let place = Arc::new(console.runs.place()?);
-    let (send, mut rest) = mpsc::channel::<Line>(AHEAD);
+    let (send, mut rest) = mpsc::channel::<SentLine>(AHEAD);
     let (fail, failed) = oneshot::channel();
     let console = Arc::clone(console);
     let held = Arc::clone(&place);
@@ -73,7 +73,8 @@ pub(crate) async fn answer(
         let nothing = Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no answer");
         return Err(failed.await.unwrap_or(nothing));
     };
-    let lines = Lines { first: Some(first), rest, taken: None, _asking: asking, _place: place };
+    let lines =
+        AnswerLines { first: Some(first), rest, taken: None, _asking: asking, _place: place };
     let mut response = Response::new(ReplyBody::Lines(lines));
     response.headers_mut().insert(CONTENT_TYPE, LINES);
     Ok(response)

@@ -18,16 +18,16 @@ pub(crate) enum ReplyBody {
     Whole(Option<Bytes>),
     /// The lines of an answer as they come. When it is dropped, because the last was sent or the
     /// reader has gone, nobody asks any more.
-    Lines(Lines),
+    Lines(AnswerLines),
 }
 
 /// A line, with what it takes of the memory for lines.
-pub(crate) type Line = (Bytes, Option<OwnedSemaphorePermit>);
+pub(crate) type SentLine = (Bytes, Option<OwnedSemaphorePermit>);
 
 /// The lines of an answer.
-pub(crate) struct Lines {
-    pub(crate) first: Option<Line>,
-    pub(crate) rest: Receiver<Line>,
+pub(crate) struct AnswerLines {
+    pub(crate) first: Option<SentLine>,
+    pub(crate) rest: Receiver<SentLine>,
     /// That of the line which is being taken.
     pub(crate) taken: Option<OwnedSemaphorePermit>,
     pub(crate) _asking: Waiter,
@@ -40,7 +40,7 @@ impl ReplyBody {
     }
 }
 
-impl Lines {
+impl AnswerLines {
     /// The next line. The one before it has been taken, but for some bytes.
     fn next(&mut self, context: &mut Context<'_>) -> Poll<Option<Bytes>> {
         self.taken = None;

@@ -280,7 +280,7 @@ fn the_token_is_on_no_command_line() {
     let _ = child.wait();
     let read = |name: &str| std::fs::read_to_string(place.file(name)).unwrap();
     assert!(
-        read("opened").ends_with(".html") && !read("opened").contains("token"),
+        read("opened").contains("/grouser-") && !read("opened").contains("token"),
         "{}",
         read("opened")
     );

@@ -10,9 +10,9 @@ use std::sync::Arc;
 use roxmltree::{Document, Node};
 use tiff_reader::{OpenOptions, TiffFile};
 
-use super::OpenedFile;
 use super::affine::Affine;
 use super::metadata::check_unit;
+use super::opened_file::OpenedFile;
 use crate::MapPath;
 use crate::error::Fault;
 
