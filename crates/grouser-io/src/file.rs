@@ -61,7 +61,16 @@ pub enum FileProblem {
 /// # Errors
 /// [`FileProblem`] for what is no file, is not there, may not be read, or is larger.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileProblem> {
-    let file = open(path)?;
+    read_in(path, None, limit)
+}
+
+/// [`read`], of a file that has to be in a folder, if one is given.
+pub(crate) fn read_in(
+    path: &Path,
+    within: Option<&Path>,
+    limit: u64,
+) -> Result<Vec<u8>, FileProblem> {
+    let file = open_in(path, within)?;
     let mut bytes = Vec::new();
     // One byte more than allowed distinguishes a file that is too large from one that just fits,
     // without trusting a length that pipes do not have.
@@ -95,12 +104,67 @@ pub(crate) fn confined(path: &Path, within: &Path) -> Result<PathBuf, FileProble
     if !steps.starts_with(within) {
         return Err(FileProblem::Outside);
     }
-    // A link that leads nowhere may name what is outside: its target is not said.
-    let found = fs::canonicalize(&steps).map_err(|error| match failed(&steps, &error) {
-        FileProblem::BrokenLink { .. } => FileProblem::NoSuchFile,
-        problem => problem,
+    let found = fs::canonicalize(&steps).map_err(|error| {
+        let mut inside: Vec<_> =
+            steps.ancestors().take_while(|it| it.starts_with(within)).collect();
+        inside.reverse();
+        // The first step that leads out or nowhere. A link that leads nowhere may name what is
+        // outside, which is said as if it were there.
+        let is_inside =
+            |step: &&Path| fs::canonicalize(step).is_ok_and(|it| it.starts_with(within));
+        let step = inside.into_iter().find(|step| !is_inside(step)).unwrap_or(&steps);
+        let is_out = step.is_symlink() || fs::canonicalize(step).is_ok();
+        if is_out { FileProblem::Outside } else { failed(step, &error) }
     })?;
     if found.starts_with(within) { Ok(found) } else { Err(FileProblem::Outside) }
+}
+
+/// Cells of a map at the most that is read in a folder which others may name files of:
+/// 1024 × 1024.
+pub const CONFINED_CELLS: u64 = 1 << 20;
+/// The largest file that is read there [bytes]: text takes some sixty for a cell.
+pub const CONFINED_BYTES: u64 = 1 << 26;
+
+/// Opens files by their paths, as [`grouser_raster::MapPath`] asks for.
+///
+/// * `within`: the folder that they have to be in, itself without links; `None` for any
+pub fn opener(within: Option<&Path>) -> impl Fn(&Path) -> io::Result<File> {
+    move |path| match open_in(path, within) {
+        // What the system says stays as it is.
+        Err(FileProblem::Unreadable { kind, message }) => Err(io::Error::new(kind, message)),
+        opened => opened.map_err(io::Error::other),
+    }
+}
+
+/// Opens a file, which has to be in a folder, if one is given, however links change meanwhile.
+pub(crate) fn open_in(path: &Path, within: Option<&Path>) -> Result<File, FileProblem> {
+    let Some(within) = within else { return open(path) };
+    let path = confined(path, within)?;
+    let steps = path.strip_prefix(within).map_err(|_| FileProblem::Outside)?;
+    let file = open_steps(within, steps).map_err(|error| failed(&path, &error))?;
+    let metadata = file.metadata().map_err(|error| failed(&path, &error))?;
+    check(&metadata, false)?;
+    if metadata.len() > CONFINED_BYTES {
+        return Err(FileProblem::TooLarge { limit: CONFINED_BYTES });
+    }
+    Ok(file)
+}
+
+/// Opens a file step by step, and follows no link: a path had none when it was looked at.
+#[cfg(unix)]
+fn open_steps(folder: &Path, steps: &Path) -> io::Result<File> {
+    use rustix::fs::{Mode, OFlags, open, openat};
+    let flags = OFlags::RDONLY | OFlags::CLOEXEC | OFlags::NOFOLLOW | OFlags::NONBLOCK;
+    let mut at = open(folder, flags, Mode::empty())?;
+    for step in steps {
+        at = openat(&at, step, flags, Mode::empty())?;
+    }
+    Ok(at.into())
+}
+
+#[cfg(not(unix))]
+fn open_steps(folder: &Path, steps: &Path) -> io::Result<File> {
+    File::open(folder.join(steps))
 }
 
 /// A map's path without links, if neither it nor what is read with it leads out of a folder, and it
@@ -112,7 +176,7 @@ pub(crate) fn confined(path: &Path, within: &Path) -> Result<PathBuf, FileProble
 /// [`FileProblem`] for a path that leads out of the folder, or to no file.
 pub fn confined_map(path: &Path, within: &Path) -> Result<PathBuf, FileProblem> {
     let path = confined(path, within)?;
-    check_regular(&path)?;
+    check_regular(&path, Some(within))?;
     check_beside(&path, within)?;
     Ok(path)
 }
@@ -131,10 +195,12 @@ pub fn broken_link(path: &Path) -> Option<PathBuf> {
 
 /// Checks that a path leads to a file that ends, for callers that open it themselves.
 ///
+/// * `within`: the folder that it has to be in
+///
 /// # Errors
 /// The same as [`read`].
-pub(crate) fn check_regular(path: &Path) -> Result<(), FileProblem> {
-    open(path).map(drop)
+pub(crate) fn check_regular(path: &Path, within: Option<&Path>) -> Result<(), FileProblem> {
+    open_in(path, within).map(drop)
 }
 
 /// Opens a file without waiting, for callers that read it bit by bit.
@@ -227,5 +293,31 @@ fn failed(path: &Path, error: &io::Error) -> FileProblem {
         },
         io::ErrorKind::IsADirectory => FileProblem::Folder,
         kind => FileProblem::Unreadable { kind, message: error.to_string() },
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    /// A folder that becomes a link between the look and the opening.
+    #[test]
+    fn a_link_that_came_meanwhile_is_not_followed() {
+        let root = std::env::temp_dir().join(format!("grouser-links-{}", std::process::id()));
+        let [folder, outside] = ["folder", "outside"].map(|name| root.join(name));
+        fs::create_dir_all(folder.join("sub")).unwrap();
+        fs::create_dir_all(&outside).unwrap();
+        fs::write(folder.join("sub/file"), "inside").unwrap();
+        fs::write(outside.join("file"), "outside").unwrap();
+        let steps = Path::new("sub/file");
+        assert!(open_steps(&folder, steps).is_ok());
+        fs::remove_dir_all(folder.join("sub")).unwrap();
+        std::os::unix::fs::symlink(&outside, folder.join("sub")).unwrap();
+        let (of_folder, of_file) =
+            (open_steps(&folder, steps), open_steps(&outside, Path::new("file")));
+        assert!(of_folder.is_err() && of_file.is_ok());
+        std::os::unix::fs::symlink(outside.join("file"), folder.join("file")).unwrap();
+        assert!(open_steps(&folder, Path::new("file")).is_err());
+        fs::remove_dir_all(root).unwrap();
     }
 }

@@ -81,7 +81,7 @@ pub(crate) fn text_of(name: &str, origin: &Origin) -> Result<Arc<Text>, Document
         let path = origin.text.path_of(name);
         let path = path.map_err(|why| DocumentError::at(origin, why.into()))?;
         let label = path.display().to_string();
-        let content = read_file(&path, LARGEST_FILE)
+        let content = read_file(&path, origin.text.within(), LARGEST_FILE)
             .map_err(|problem| DocumentError::whole(&label, problem))?;
         (label, content)
     };

@@ -7,6 +7,7 @@ use super::describe::run::TERRAIN;
 use super::describe::terrain::{BAND, CELL_SIZE, MISSING, SOUTH_WEST};
 use super::document::Document;
 use super::error::Problem;
+use super::file::CONFINED_CELLS;
 use grouser_core::units::Vec2;
 use grouser_raster::{Fault, Placement, ReadOptions, RowOrder};
 
@@ -19,7 +20,9 @@ pub(crate) fn key(of_terrain: &str) -> String {
 pub(crate) type Found = (Problem, Option<String>);
 
 /// How the file is to be read.
-pub(crate) fn options(document: &Document) -> ReadOptions {
+///
+/// * `within`: the folder that it has to be in
+pub(crate) fn options(document: &Document, within: Option<&Path>) -> ReadOptions {
     let number = |of: &str| document.number(&key(of));
     let cell_size = number(CELL_SIZE);
     let corner = |axis: usize| number(&format!("{SOUTH_WEST}.{axis}")).unwrap_or(0.0);
@@ -33,6 +36,7 @@ pub(crate) fn options(document: &Document) -> ReadOptions {
         placement,
         band: band.and_then(|band| usize::try_from(band).ok()),
         missing: number(MISSING),
+        cells: within.map(|_| CONFINED_CELLS),
         ..ReadOptions::default()
     }
 }

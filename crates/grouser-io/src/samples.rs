@@ -63,7 +63,7 @@ impl SampleTable {
         let path =
             origin.text.path_of(name).map_err(|why| DocumentError::at(origin, why.into()))?;
         let label = path.display().to_string();
-        let content = read_file(&path, LARGEST_TABLE).map_err(|problem| {
+        let content = read_file(&path, origin.text.within(), LARGEST_TABLE).map_err(|problem| {
             let is_whole = origin.text.folder == Path::new("");
             let hint = (!is_whole).then(|| format!("looked for {label}"));
             match problem {

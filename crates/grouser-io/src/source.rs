@@ -151,8 +151,9 @@ impl Source {
                 if let Self::Confined { within, .. } = self {
                     named.within = Some(within.clone());
                 }
+                let within = named.within.as_deref();
                 let label = path.display().to_string();
-                let content = read_file(path, LARGEST_FILE).map_err(|problem| {
+                let content = read_file(path, within, LARGEST_FILE).map_err(|problem| {
                     let hint = (problem == Problem::NoSuchFile).then(|| meant_file(path)).flatten();
                     DocumentError::whole(&label, problem).with_hint(hint)
                 })?;
@@ -182,8 +183,10 @@ fn meant_file(path: &Path) -> Option<String> {
 }
 
 /// The text of a file of at most `limit` bytes.
-pub(crate) fn read_file(path: &Path, limit: u64) -> Result<String, Problem> {
-    let bytes = file::read(path, limit).map_err(Problem::from)?;
+///
+/// * `within`: the folder that it has to be in
+pub(crate) fn read_file(path: &Path, within: Option<&Path>, limit: u64) -> Result<String, Problem> {
+    let bytes = file::read_in(path, within, limit).map_err(Problem::from)?;
     String::from_utf8(bytes)
         .map_err(|error| Problem::NotText { valid_up_to: error.utf8_error().valid_up_to() })
 }

@@ -18,7 +18,7 @@ use super::zones_file;
 use grouser_core::simulation::Scenario;
 use grouser_core::terrain::{ElevationModel, Extent, Shape};
 use grouser_core::units::Vec2;
-use grouser_raster::{CoordinateSystem, ReadOptions, Remark};
+use grouser_raster::{CoordinateSystem, MapPath, ReadOptions, Remark};
 
 /// Gives maps that a document names their whole paths, so that the resolved document finds them
 /// from anywhere, and ground with heights no slope beside them.
@@ -79,7 +79,8 @@ pub(crate) fn read(
     let (model, system, mut notes) = if let Some(map) = held(path, document, tree)? {
         (map.model, map.system, Vec::new())
     } else {
-        let read = map(Path::new(path), &options(document));
+        let within = tree.origin_of(&key(FILE)).text.within();
+        let read = map(Path::new(path), within, &options(document, within));
         let Map { model, remarks, system } = read.map_err(|found| fault(FILE, found))?;
         let declared = |height: f64| format!("`{}` = {height}", key(MISSING));
         let note = |remark: &Remark| format!("{}: {}", name_of(path), remark.in_words(declared));
@@ -122,7 +123,7 @@ fn held(name: &str, document: &Document, tree: &Node) -> Result<Option<HeldMap>,
     };
     if let Some(read_with) = &map.options {
         // Read otherwise, the file is another map.
-        return Ok((*read_with == options(document)).then(|| map.clone()));
+        return Ok((*read_with == options(document, origin.text.within())).then(|| map.clone()));
     }
     let of_files = [CELL_SIZE, SOUTH_WEST, BAND, MISSING].map(key);
     if let Some(key) = of_files.iter().find(|key| document.get(key).is_some()) {
@@ -139,7 +140,7 @@ pub fn map_of(scenario: &Scenario, document: &Document) -> Option<HeldMap> {
     let Shape::Map(model) = &scenario.ground.shape else { return None };
     let name = document.text(&key(FILE))?.to_owned();
     // A resolved document has whole paths.
-    let options = Path::new(&name).is_absolute().then(|| options(document));
+    let options = Path::new(&name).is_absolute().then(|| options(document, None));
     Some(HeldMap { name, model: model.clone(), options, system: None })
 }
 
@@ -153,11 +154,12 @@ pub fn read_map(
 ) -> Result<(HeldMap, Vec<Remark>), DocumentError> {
     let whole = absolute(path).unwrap_or_else(|_| path.to_owned());
     let name = whole.display().to_string();
-    let Map { model, remarks, system } = map(&whole, &options).map_err(|(problem, hint)| {
-        // Options stand in no table.
-        let hint = hint.map(|hint| hint.replace("`terrain.", "`"));
-        DocumentError::whole(&name, problem).with_hint(hint)
-    })?;
+    let Map { model, remarks, system } =
+        map(&whole, None, &options).map_err(|(problem, hint)| {
+            // Options stand in no table.
+            let hint = hint.map(|hint| hint.replace("`terrain.", "`"));
+            DocumentError::whole(&name, problem).with_hint(hint)
+        })?;
     let (model, options, system) = (Arc::new(model), Some(options), Some(system));
     Ok((HeldMap { name, model, options, system }, remarks))
 }
@@ -169,11 +171,13 @@ struct Map {
     system: CoordinateSystem,
 }
 
-fn map(path: &Path, options: &ReadOptions) -> Result<Map, Found> {
+/// * `within`: the folder that it has to be in
+fn map(path: &Path, within: Option<&Path>, options: &ReadOptions) -> Result<Map, Found> {
     // Neither a device nor a pipe is waited for.
-    file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
+    file::check_regular(path, within).map_err(|problem| (Problem::from(problem), None))?;
+    let file = MapPath { path, open: &file::opener(within) };
     let mut raster =
-        grouser_raster::read(path, options).map_err(|error| found("map", path, &error.fault))?;
+        grouser_raster::read(file, options).map_err(|error| found("map", path, &error.fault))?;
     let (remarks, system) = (take(&mut raster.remarks), take(&mut raster.coordinates));
     let model = raster.model().map_err(|error| found("map", path, &error.into()))?;
     Ok(Map { model, remarks, system })

@@ -5,7 +5,7 @@
 //! its own text, so that whatever is found wrong later is reported where its author wrote it.
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::file::{self, FileProblem};
@@ -39,6 +39,11 @@ impl Text {
             Some(within) => file::confined(&path, within),
             None => Ok(path),
         }
+    }
+
+    /// The folder that files which it names have to be in.
+    pub(crate) fn within(&self) -> Option<&Path> {
+        self.beside.within.as_deref()
     }
 
     /// The bytes of the line around a byte, without its end.

@@ -18,7 +18,8 @@ use grouser_core::soil::Soil;
 use grouser_core::terrain::{Ground, Shape, SoilZones};
 use grouser_raster::zones::ZoneCounts;
 use grouser_raster::{
-    CoordinateSystem, Fault, MapFrame, ReadOptions, Remark, ZoneKey, read_zones, zone_names,
+    CoordinateSystem, Fault, MapFrame, MapPath, ReadOptions, Remark, ZoneKey, read_zones,
+    zone_names,
 };
 
 /// Gives each name of a file's zones that the legend does not have, and that is a preset's, a row
@@ -30,10 +31,12 @@ pub(crate) fn name_presets(terrain: &mut Node) {
     let Some(Entry { node, .. }) = terrain.entry(FILE) else { return };
     let Value::String(path) = &node.value else { return };
     let (path, origin) = (Path::new(path), node.origin.clone());
-    if file::check_regular(path).is_err() {
+    let within = origin.text.within();
+    if file::check_regular(path, within).is_err() {
         return;
     }
-    let Ok(names) = zone_names(path) else { return };
+    let open = &file::opener(within);
+    let Ok(names) = zone_names(MapPath { path, open }) else { return };
     let Value::Table(entries) = &mut terrain.value else { return };
     let place = entries.iter().position(|entry| entry.key == LEGEND).unwrap_or_else(|| {
         let node = Node { value: Value::List(Vec::new()), origin: origin.clone() };
@@ -108,7 +111,12 @@ pub(crate) fn read(
         Shape::Map(model) => Some(MapFrame { system, extent: model.extent() }),
         Shape::Plane(_) | Shape::Formula(_) | Shape::Own(_) => None,
     };
-    let zones = zones(Path::new(path), &options(document), map, &legend, soils);
+    let path = Path::new(path);
+    let within = tree.origin_of(&key(FILE)).text.within();
+    file::check_regular(path, within)
+        .map_err(|problem| DocumentError::at(tree.origin_of(&key(FILE)), problem.into()))?;
+    let file = MapPath { path, open: &file::opener(within) };
+    let zones = zones(file, &options(document, within), map, &legend, soils);
     let (zones, given, remark) = zones.map_err(|(problem, hint)| {
         DocumentError::at(tree.origin_of(&key(FILE)), problem).with_hint(hint)
     })?;
@@ -124,17 +132,17 @@ fn zone_key(row: &Json) -> Option<ZoneKey> {
 }
 
 fn zones(
-    path: &Path,
+    file: MapPath<'_>,
     options: &ReadOptions,
     on: Option<MapFrame<'_>>,
     legend: &[(ZoneKey, Option<usize>)],
     soils: Vec<Soil>,
 ) -> Result<(SoilZones, GivenFile, Option<Remark>), Found> {
-    file::check_regular(path).map_err(|problem| (Problem::from(problem), None))?;
+    let path = file.path;
     // A band, and the height that stands for a missing one, are those of the map.
     let options = ReadOptions { band: None, missing: None, ..*options };
     let fault = |fault: &Fault| found("file of zones", path, fault);
-    let map = read_zones(path, &options, on.as_ref());
+    let map = read_zones(file, &options, on.as_ref());
     let (map, remark) = map.map_err(|error| fault(&error.fault))?;
     let hint =
         "a row `[[terrain.zone]]` has `class` or `name`, and `soil`; names of presets need none";

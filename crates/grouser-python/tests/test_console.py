@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import http.client
 import json
 import os
@@ -9,8 +10,10 @@ import socket
 import subprocess
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
 
@@ -62,6 +65,41 @@ def test_it_ends_when_it_is_stopped() -> None:
     # The port is free again.
     with gr.serve(port=console.port, open_browser=False) as again:
         assert again.port == console.port
+
+
+def test_whoever_stops_it_waits_for_its_end() -> None:
+    console = gr.serve(open_browser=False)
+    token, body = token_of(console), json.dumps({"soil": "toyoura-uncertain", "samples": 10000})
+
+    def asked() -> None:
+        # It is cut off.
+        with contextlib.suppress(OSError, http.client.HTTPException):
+            ask(console, "/api/heading", token, body)
+
+    asking = threading.Thread(target=asked)
+    asking.start()
+
+    def stop() -> bool:
+        console.stop()
+        with socket.socket() as other:
+            return other.connect_ex(("127.0.0.1", console.port)) != 0
+
+    with ThreadPoolExecutor(4) as pool:
+        stops = [pool.submit(stop) for _ in range(4)]
+        assert all(it.result(60) for it in stops)
+    asking.join(60)
+
+
+def test_the_browser_is_opened_with_a_private_file(monkeypatch: pytest.MonkeyPatch) -> None:
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    with gr.serve() as console:
+        (address,) = opened
+        assert address.startswith("file:") and token_of(console) not in address
+        page = Path(url2pathname(urlsplit(address).path))
+        assert console.address in page.read_text()
+        assert os.name == "nt" or page.stat().st_mode & 0o777 == 0o600
+    assert not page.exists()
 
 
 def test_python_goes_on_beside_it() -> None:

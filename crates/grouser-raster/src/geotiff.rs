@@ -10,18 +10,20 @@
 mod affine;
 pub(crate) mod beside;
 pub(crate) mod metadata;
+mod opened_file;
 mod reference;
 
-use std::path::Path;
+use std::sync::Arc;
 
 use tiff_reader::{ByteOrder, Ifd, OpenOptions, Tag, TiffError, TiffFile, TiffSample};
 
 use crate::coordinate_system::{CoordinateSystem, DIRECTORY, DOUBLES, TEXT};
 use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
-use crate::{Content, Raster, ReadOptions};
+use crate::{Content, MapPath, Raster, ReadOptions};
 use beside::Sidecars;
 use metadata::Scaling;
+use opened_file::OpenedFile;
 use reference::Georeference;
 
 /// Tags of TIFF 6.0, GeoTIFF and GDAL.
@@ -43,14 +45,19 @@ pub(crate) fn starts_so(start: &[u8]) -> bool {
 ///
 /// # Errors
 /// [`RasterError`] with the file's name, and what to do.
-pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
+pub fn read<'p>(
+    path: impl Into<MapPath<'p>>,
+    options: &ReadOptions,
+) -> Result<Raster, RasterError> {
+    let path = path.into();
     let raster = || {
-        let length = std::fs::metadata(path)?.len();
-        let tiff = TiffFile::open_with_options(path, limits(length, options))?;
+        let source = OpenedFile::of(path)?;
+        let length = source.length;
+        let tiff = TiffFile::from_source_with_options(Arc::new(source), limits(length, options))?;
         let beside = Sidecars::of(path, options.band.unwrap_or(1), limits(length, options))?;
         raster_of(&tiff, length, &beside, options)
     };
-    raster().map_err(|fault| RasterError::new(path, fault))
+    raster().map_err(|fault| RasterError::new(path.path, fault))
 }
 
 /// Reads what a file holds.

@@ -6,13 +6,11 @@
 
 mod header;
 
-use std::fs::File;
 use std::io::{BufReader, Read};
-use std::path::Path;
 
 use crate::error::{Fault, RasterError};
 use crate::heights::{Heights, checked_cells};
-use crate::{CoordinateSystem, Raster, ReadOptions};
+use crate::{CoordinateSystem, MapPath, Raster, ReadOptions};
 use header::{Header, MAGIC};
 
 pub(crate) fn starts_so(start: &[u8]) -> bool {
@@ -23,13 +21,17 @@ pub(crate) fn starts_so(start: &[u8]) -> bool {
 ///
 /// # Errors
 /// [`RasterError`] with the file's name, and what to do.
-pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
+pub fn read<'p>(
+    path: impl Into<MapPath<'p>>,
+    options: &ReadOptions,
+) -> Result<Raster, RasterError> {
+    let path = path.into();
     let raster = || {
-        let file = File::open(path)?;
+        let file = path.opened()?;
         let length = file.metadata()?.len();
         raster_of(&mut BufReader::new(file), length, options)
     };
-    raster().map_err(|fault| RasterError::new(path, fault))
+    raster().map_err(|fault| RasterError::new(path.path, fault))
 }
 
 /// Reads what a file holds.

@@ -9,16 +9,14 @@
 mod axis;
 mod header;
 
-use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
-use std::path::Path;
 
 use grouser_core::terrain::ElevationGrid;
 use grouser_core::units::Vec2;
 
 use crate::error::{Fault, InnerFault, RasterError};
 use crate::heights::{Heights, checked_cells};
-use crate::{CELLS, CoordinateSystem, Raster, ReadOptions, Remark, RowOrder};
+use crate::{CELLS, CoordinateSystem, MapPath, Raster, ReadOptions, Remark, RowOrder};
 use axis::Axis;
 use header::{TextColumns, words};
 
@@ -31,9 +29,13 @@ const EMPTY: u64 = 1_000;
 ///
 /// # Errors
 /// [`RasterError`] with the file's name, and what to do.
-pub fn read(path: &Path, options: &ReadOptions) -> Result<Raster, RasterError> {
-    let raster = || decode(BufReader::new(File::open(path)?), options);
-    raster().map_err(|fault| RasterError::new(path, fault))
+pub fn read<'p>(
+    path: impl Into<MapPath<'p>>,
+    options: &ReadOptions,
+) -> Result<Raster, RasterError> {
+    let path = path.into();
+    let raster = || decode(BufReader::new(path.opened()?), options);
+    raster().map_err(|fault| RasterError::new(path.path, fault))
 }
 
 /// The text of a raster, a line for each point whose height is known, in rows from south to north.

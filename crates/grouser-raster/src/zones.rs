@@ -31,17 +31,16 @@ pub use key::ZoneKey;
 pub use map::{ZoneCounts, ZoneMap};
 pub use places::{MapFrame, check_places, check_places_on};
 
-use std::path::Path;
-
 use crate::error::{Fault, RasterError};
 use crate::read::start_of;
-use crate::{Content, ReadOptions, Remark, read};
+use crate::{Content, MapPath, ReadOptions, Remark, read};
 
 /// The names of a file's zones; none of a raster, whose zones have numbers.
 ///
 /// # Errors
 /// [`RasterError`] with the file's name, and what to do.
-pub fn zone_names(path: &Path) -> Result<Vec<String>, RasterError> {
+pub fn zone_names<'p>(path: impl Into<MapPath<'p>>) -> Result<Vec<String>, RasterError> {
+    let path = path.into();
     let names = || {
         if !geojson::starts_so(&start_of(path)?) {
             return Ok(Vec::new());
@@ -52,7 +51,7 @@ pub fn zone_names(path: &Path) -> Result<Vec<String>, RasterError> {
         };
         Ok(geojson::read(path)?.keys().iter().filter_map(name).collect())
     };
-    names().map_err(|fault: Fault| RasterError::new(path, fault))
+    names().map_err(|fault: Fault| RasterError::new(path.path, fault))
 }
 
 /// Reads areas, such as those to keep out of, from GeoJSON: polygons with any properties, all of
@@ -63,10 +62,11 @@ pub fn zone_names(path: &Path) -> Result<Vec<String>, RasterError> {
 /// # Errors
 /// [`RasterError`] with the file's name; also for a polygon whose edge crosses itself, for areas of
 /// another system, and for areas none of which lies on the ground.
-pub fn read_areas(
-    path: &Path,
+pub fn read_areas<'p>(
+    path: impl Into<MapPath<'p>>,
     ground: &MapFrame<'_>,
 ) -> Result<(ZoneMap, Option<Remark>), RasterError> {
+    let path = path.into();
     let areas = || {
         if !geojson::starts_so(&start_of(path)?) {
             let problem = "it does not begin with an object".to_owned();
@@ -76,7 +76,7 @@ pub fn read_areas(
         let remark = map.check_place(Some(ground))?;
         Ok((map, remark))
     };
-    areas().map_err(|fault: Fault| RasterError::new(path, fault))
+    areas().map_err(|fault: Fault| RasterError::new(path.path, fault))
 }
 
 /// Reads zones from a file of any format, which its content tells; and what is to be remarked about
@@ -88,11 +88,12 @@ pub fn read_areas(
 /// # Errors
 /// [`RasterError`] with the file's name, and what to do; also for zones of another system than the
 /// map's, and for zones none of which lies on it.
-pub fn read_zones(
-    path: &Path,
+pub fn read_zones<'p>(
+    path: impl Into<MapPath<'p>>,
     options: &ReadOptions,
     ground: Option<&MapFrame<'_>>,
 ) -> Result<(ZoneMap, Option<Remark>), RasterError> {
+    let path = path.into();
     let zones = || {
         let map = if geojson::starts_so(&start_of(path)?) {
             geojson::read(path)?
@@ -103,5 +104,5 @@ pub fn read_zones(
         let remark = map.check_place(ground)?;
         Ok((map, remark))
     };
-    zones().map_err(|fault: Fault| RasterError::new(path, fault))
+    zones().map_err(|fault: Fault| RasterError::new(path.path, fault))
 }

@@ -1,8 +1,10 @@
 //! Who may ask: requests to a name of ours, from a page of ours, with the token.
 
-use std::net::{IpAddr, SocketAddr};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr};
 
-use hyper::header::{AUTHORIZATION, COOKIE, HOST, HeaderMap, HeaderName, ORIGIN};
+use hyper::header::{
+    AUTHORIZATION, COOKIE, HOST, HeaderMap, HeaderName, HeaderValue, ORIGIN, ToStrError,
+};
 use hyper::http::uri::Authority;
 use hyper::{Request, StatusCode};
 
@@ -16,41 +18,49 @@ pub(crate) struct Access {
     /// Further names of the server, as those of a tunnel.
     names: Vec<String>,
     cookie: String,
+    /// The value of the cookie, from which nobody finds the token.
+    secret: Token,
 }
 
 /// The key of the token in the first address.
 const QUERY: &str = "token=";
 
 impl Access {
-    pub(crate) fn new(token: Token, address: SocketAddr, names: &[String]) -> Self {
-        let names = names.iter().map(|name| name.to_ascii_lowercase()).collect();
+    /// * `token`, `secret`: of the first address, and of the cookie
+    pub(crate) fn new([token, secret]: [Token; 2], address: SocketAddr, names: &[String]) -> Self {
+        let name = |name: &String| match name.parse::<Ipv6Addr>() {
+            Ok(ip) => format!("[{ip}]"),
+            Err(_) => name.to_ascii_lowercase(),
+        };
+        let names = names.iter().map(name).collect();
         // Cookies of a host are sent to all its ports: servers side by side need names of their own.
-        Self { token, address, names, cookie: format!("grouser-{}", address.port()) }
+        Self { token, address, names, cookie: format!("grouser-{}", address.port()), secret }
     }
 
     /// The first address of the page, with the token.
     pub(crate) fn url(&self) -> String {
-        let ip = self.address.ip();
-        let host = if ip.is_unspecified() { IpAddr::from([127, 0, 0, 1]) } else { ip };
+        let host = match self.address.ip() {
+            IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
+            // Some systems take connections of the elder kind at `::`, and some do not.
+            IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
+            ip => ip,
+        };
         let address = SocketAddr::new(host, self.address.port());
         format!("http://{address}/?{QUERY}{}", self.token.text())
     }
 
     /// The cookie that stands for the token from the first address on.
     pub(crate) fn set_cookie(&self) -> String {
-        format!("{}={}; HttpOnly; SameSite=Strict; Path=/", self.cookie, self.token.text())
+        format!("{}={}; HttpOnly; SameSite=Strict; Path=/", self.cookie, self.secret.text())
     }
 
     /// Checks that a request is to a name of ours. A name that somebody else's server resolved to
     /// this machine is none.
     pub(crate) fn check_host<B>(&self, request: &Request<B>) -> Result<(), Refusal> {
-        let mut hosts = request.headers().get_all(HOST).iter();
-        let host = hosts.next().and_then(|host| host.to_str().ok());
+        let host = only(request.headers(), &HOST);
         let authority = request.uri().authority().map(Authority::as_str);
         let is_own = |host: &str| self.is_own(host);
-        let is_allowed =
-            hosts.next().is_none() && host.is_some_and(is_own) && authority.is_none_or(is_own);
-        if is_allowed {
+        if matches!(host, Ok(Some(host)) if is_own(host)) && authority.is_none_or(is_own) {
             return Ok(());
         }
         let message = "this is not an address of this server: it answers on the loopback, and to \
@@ -73,14 +83,14 @@ impl Access {
     /// Checks that a question comes from a page of ours. What is no browser names no origin.
     pub(crate) fn check_origin(&self, headers: &HeaderMap) -> Result<(), Refusal> {
         const SITE: HeaderName = HeaderName::from_static("sec-fetch-site");
-        let origin = headers.get(ORIGIN).map(|it| it.to_str().unwrap_or("null"));
         let is_own = |origin: &str| {
             let host = origin.strip_prefix("http://").or_else(|| origin.strip_prefix("https://"));
             host.is_some_and(|host| self.is_own(host))
         };
-        let site = headers.get(SITE).map(|it| it.to_str().unwrap_or_default());
         let is_same = |site: &str| matches!(site, "same-origin" | "none");
-        if origin.is_none_or(is_own) && site.is_none_or(is_same) {
+        if only(headers, &ORIGIN).is_ok_and(|it| it.is_none_or(is_own))
+            && only(headers, &SITE).is_ok_and(|it| it.is_none_or(is_same))
+        {
             return Ok(());
         }
         Err(Refusal::new(StatusCode::FORBIDDEN, "this question comes from another page than ours"))
@@ -100,8 +110,12 @@ impl Access {
         if port != Some(self.address.port()) {
             return false;
         }
-        let name = name.trim_start_matches('[').trim_end_matches(']');
-        match name.parse::<IpAddr>() {
+        let in_brackets = name.strip_prefix('[').and_then(|name| name.strip_suffix(']'));
+        let ip = match in_brackets {
+            Some(name) => name.parse().map(IpAddr::V6),
+            None => name.parse().map(IpAddr::V4),
+        };
+        match ip {
             // Nobody's server of names resolves a number.
             Ok(ip) => {
                 let own = self.address.ip();
@@ -119,13 +133,21 @@ impl Access {
     fn has_cookie(&self, headers: &HeaderMap) -> bool {
         let all = headers.get_all(COOKIE).iter().filter_map(|it| it.to_str().ok());
         let mut pairs = all.flat_map(|it| it.split(';')).filter_map(|it| it.trim().split_once('='));
-        pairs.any(|(name, token)| name == self.cookie && self.token.is(token))
+        pairs.any(|(name, token)| name == self.cookie && self.secret.is(token))
     }
 
     fn has_header(&self, headers: &HeaderMap) -> bool {
-        let given = headers.get(AUTHORIZATION).and_then(|it| it.to_str().ok());
+        let given = only(headers, &AUTHORIZATION).ok().flatten();
         given.and_then(|it| it.strip_prefix("Bearer ")).is_some_and(|token| self.token.is(token))
     }
+}
+
+/// The value of a header, if it is there; an error if there are two, or it is no text: who reads the
+/// first and who reads the last would not agree.
+fn only<'h>(headers: &'h HeaderMap, name: &HeaderName) -> Result<Option<&'h str>, ()> {
+    let mut all = headers.get_all(name).iter();
+    let one = all.next().map(HeaderValue::to_str).transpose();
+    if all.next().is_some() { Err(()) } else { one.map_err(|_: ToStrError| ()) }
 }
 
 #[cfg(test)]
@@ -134,7 +156,8 @@ mod tests {
 
     fn access(address: &str, names: &[&str]) -> Access {
         let names: Vec<String> = names.iter().map(|it| (*it).to_owned()).collect();
-        Access::new(Token::random().unwrap(), address.parse().unwrap(), &names)
+        let secrets = [(); 2].map(|()| Token::random().unwrap());
+        Access::new(secrets, address.parse().unwrap(), &names)
     }
 
     #[test]
@@ -151,6 +174,10 @@ mod tests {
             "localhost",
             "192.168.0.9:4000",
             "localhost:",
+            "::1:4000",
+            "[127.0.0.1]:4000",
+            "[[::1]]:4000",
+            "a@127.0.0.1:4000",
             ":4000",
             "",
         ] {
@@ -165,6 +192,12 @@ mod tests {
         assert!(!tunnelled.is_own("rover.example:x") && !tunnelled.is_own("a.rover.example"));
         let open = access("0.0.0.0:4000", &[]);
         assert!(open.is_own("192.168.0.9:4000") && !open.is_own("evil.example:4000"));
+        let open = access("[::]:4000", &["::2"]);
+        for own in ["[::1]:4000", "[fd00::7]:4000", "127.0.0.1:4000", "[::2]", "[::2]:8443"] {
+            assert!(open.is_own(own), "{own}");
+        }
+        assert!(!open.is_own("evil.example:4000"));
+        assert!(open.url().starts_with("http://[::1]:4000/"), "{}", open.url());
         let one = access("10.0.0.2:4000", &[]);
         assert!(one.is_own("10.0.0.2:4000") && !one.is_own("10.0.0.3:4000"));
     }

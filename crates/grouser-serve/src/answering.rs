@@ -11,7 +11,7 @@ use hyper::{Response, StatusCode};
 use tokio::sync::{mpsc, oneshot};
 
 use crate::asked::Read;
-use crate::body::ReplyBody;
+use crate::body::{AnswerLines, ReplyBody, SentLine};
 use crate::console::Console;
 use crate::refusal::Refusal;
 
@@ -28,35 +28,54 @@ pub(crate) async fn answer(
 ) -> Result<Response<ReplyBody>, Refusal> {
     // From here on whoever hangs up is not asking any more.
     let (asking, go_on) = console.runs.asking();
-    let place = console.runs.place()?;
-    let (send, mut rest) = mpsc::channel::<Bytes>(AHEAD);
+    let place = Arc::new(console.runs.place()?);
+    let (send, mut rest) = mpsc::channel::<SentLine>(AHEAD);
     let (fail, failed) = oneshot::channel();
     let console = Arc::clone(console);
+    let held = Arc::clone(&place);
     drop(tokio::task::spawn_blocking(move || {
-        let has_begun = Cell::new(false);
+        let (has_begun, is_full) = (Cell::new(false), Cell::new(false));
         let sent = |line: String| {
-            has_begun.set(true);
-            send.blocking_send((line + "\n").into()).is_ok()
+            let has_room = line.len() <= console.limits.answer_bytes as usize;
+            let room = if has_room { go_on.room(line.len()) } else { None };
+            is_full.set(room.is_none());
+            room.is_some() && {
+                has_begun.set(true);
+                send.blocking_send(((line + "\n").into(), room)).is_ok()
+            }
         };
-        let computed = guarded(|| read(&console, &body)?.answer(&go_on, &sent));
+        let computed = guarded(|| {
+            let turn = go_on.reading_turn().ok_or_else(Refusal::stopped)?;
+            let question = read(&console, &body)?;
+            drop(turn);
+            question.answer(&go_on, &sent)
+        });
         let computed = computed.unwrap_or_else(|panic| {
             let message = format!("this is a fault of ours: {panic}");
             Err(Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, message))
         });
+        let full = || {
+            let message = "the answer has no room beside those that wait for slow readers";
+            Err(Refusal::new(StatusCode::SERVICE_UNAVAILABLE, message))
+        };
         // What fails before the first line is the answer; after some it is the last line.
-        match computed {
+        match if is_full.get() { full() } else { computed } {
             Ok(()) => {}
-            Err(refusal) if has_begun.get() => drop(sent(json::line(&refusal.to_json()))),
+            Err(refusal) if has_begun.get() => {
+                let line = json::line(&refusal.to_json()) + "\n";
+                drop(send.blocking_send((line.into(), None)));
+            }
             Err(refusal) => drop(fail.send(refusal)),
         }
-        drop(place);
+        drop(held);
     }));
     let Some(first) = rest.recv().await else {
         let nothing = Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no answer");
         return Err(failed.await.unwrap_or(nothing));
     };
-    let mut response =
-        Response::new(ReplyBody::Lines { first: Some(first), rest, _asking: asking });
+    let lines =
+        AnswerLines { first: Some(first), rest, taken: None, _asking: asking, _place: place };
+    let mut response = Response::new(ReplyBody::Lines(lines));
     response.headers_mut().insert(CONTENT_TYPE, LINES);
     Ok(response)
 }

@@ -2,13 +2,15 @@
 
 use std::convert::Infallible;
 use std::pin::Pin;
+use std::sync::Arc;
 use std::task::{Context, Poll};
 
 use bytes::Bytes;
 use hyper::body::{Body as HttpBody, Frame, SizeHint};
+use tokio::sync::OwnedSemaphorePermit;
 use tokio::sync::mpsc::Receiver;
 
-use crate::runs::Waiter;
+use crate::runs::{Place, Waiter};
 
 /// The body of a response.
 pub(crate) enum ReplyBody {
@@ -16,12 +18,41 @@ pub(crate) enum ReplyBody {
     Whole(Option<Bytes>),
     /// The lines of an answer as they come. When it is dropped, because the last was sent or the
     /// reader has gone, nobody asks any more.
-    Lines { first: Option<Bytes>, rest: Receiver<Bytes>, _asking: Waiter },
+    Lines(AnswerLines),
+}
+
+/// A line, with what it takes of the memory for lines.
+pub(crate) type SentLine = (Bytes, Option<OwnedSemaphorePermit>);
+
+/// The lines of an answer.
+pub(crate) struct AnswerLines {
+    pub(crate) first: Option<SentLine>,
+    pub(crate) rest: Receiver<SentLine>,
+    /// That of the line which is being taken.
+    pub(crate) taken: Option<OwnedSemaphorePermit>,
+    pub(crate) _asking: Waiter,
+    pub(crate) _place: Arc<Place>,
 }
 
 impl ReplyBody {
     pub(crate) fn whole(content: impl Into<Bytes>) -> Self {
         Self::Whole(Some(content.into()))
+    }
+}
+
+impl AnswerLines {
+    /// The next line. The one before it has been taken, but for some bytes.
+    fn next(&mut self, context: &mut Context<'_>) -> Poll<Option<Bytes>> {
+        self.taken = None;
+        let next = match self.first.take() {
+            Some(first) => Poll::Ready(Some(first)),
+            None => self.rest.poll_recv(context),
+        };
+        next.map(|line| {
+            let (bytes, room) = line?;
+            self.taken = room;
+            Some(bytes)
+        })
     }
 }
 
@@ -35,8 +66,7 @@ impl HttpBody for ReplyBody {
     ) -> Poll<Option<Result<Frame<Bytes>, Infallible>>> {
         let next = match self.get_mut() {
             Self::Whole(content) => Poll::Ready(content.take()),
-            Self::Lines { first: first @ Some(_), .. } => Poll::Ready(first.take()),
-            Self::Lines { rest, .. } => rest.poll_recv(context),
+            Self::Lines(lines) => lines.next(context),
         };
         next.map(|bytes| bytes.map(|bytes| Ok(Frame::data(bytes))))
     }
@@ -50,7 +80,7 @@ impl HttpBody for ReplyBody {
             Self::Whole(content) => {
                 SizeHint::with_exact(content.as_ref().map_or(0, Bytes::len) as u64)
             }
-            Self::Lines { .. } => SizeHint::default(),
+            Self::Lines(_) => SizeHint::default(),
         }
     }
 }

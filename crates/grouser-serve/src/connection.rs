@@ -1,8 +1,10 @@
 //! Connections: a bounded number, each with little time to ask and to read its answer.
 
 use std::convert::Infallible;
+use std::fmt::Write as _;
+use std::future::{Future as _, poll_fn};
 use std::io;
-use std::pin::Pin;
+use std::pin::{Pin, pin};
 use std::sync::Arc;
 use std::task::{Context, Poll};
 use std::time::Duration;
@@ -11,14 +13,15 @@ use hyper::StatusCode;
 use hyper::server::conn::http1;
 use hyper::service::service_fn;
 use hyper_util::rt::{TokioIo, TokioTimer};
-use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::io::{AsyncRead, AsyncWrite, Interest, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 use tokio::time::{Instant, Sleep, sleep, timeout};
 
 use crate::console::Console;
+use crate::limits::Limits;
 use crate::refusal::Refusal;
-use crate::routes;
+use crate::routes::{self, PROTECTION};
 
 /// Bytes of the head of a request.
 const HEAD: usize = 16 << 10;
@@ -56,11 +59,12 @@ pub(crate) async fn accept_all(
     }
 }
 
-/// Answers the requests of a connection, one after another.
+/// Answers the requests of a connection, one after another, until the other side has closed it.
 async fn serve(stream: TcpStream, console: &Arc<Console>) {
     let limits = &console.limits;
     // Lines of an answer are small, and wanted at once.
     drop(stream.set_nodelay(true));
+    let Ok([stream, watched]) = twice(stream) else { return };
     let service = service_fn(|request| {
         let console = Arc::clone(console);
         async move { Ok::<_, Infallible>(routes::respond(&console, request).await) }
@@ -70,12 +74,33 @@ async fn serve(stream: TcpStream, console: &Arc<Console>) {
         .header_read_timeout(limits.head_time)
         .max_buf_size(HEAD)
         .max_headers(HEADERS)
-        .serve_connection(TokioIo::new(Patient::new(stream, limits.write_time)), service);
-    let ended = (&mut connection).await;
-    if ended.is_err_and(|error| error.is_timeout()) {
+        .serve_connection(TokioIo::new(Patient::new(stream, limits)), service);
+    let mut closed = pin!(closed(&watched));
+    let ended = poll_fn(|context| match Pin::new(&mut connection).poll(context) {
+        Poll::Pending => closed.as_mut().poll(context).map(Ok),
+        ended @ Poll::Ready(_) => ended,
+    });
+    if ended.await.is_err_and(|error| error.is_timeout()) {
         let stream = connection.into_parts().io.into_inner().stream;
         let message = "the request did not come in time";
         let _ = stream.try_write(&bare(StatusCode::REQUEST_TIMEOUT, message));
+    }
+}
+
+/// Two handles of a connection: one is read and written, one watched.
+fn twice(stream: TcpStream) -> io::Result<[TcpStream; 2]> {
+    let stream = stream.into_std()?;
+    let watched = TcpStream::from_std(stream.try_clone()?)?;
+    Ok([TcpStream::from_std(stream)?, watched])
+}
+
+/// Waits until the other side has closed a connection. `hyper` does not see it behind a request that
+/// waits for the one before it, which would be computed for nobody.
+async fn closed(watched: &TcpStream) {
+    while watched.ready(Interest::READABLE).await.is_ok_and(|it| !it.is_read_closed()) {
+        // Nothing is read here: the next bytes, or the end, are waited for.
+        let blocks = || Err::<(), _>(io::ErrorKind::WouldBlock.into());
+        let _ = watched.try_io(Interest::READABLE, blocks);
     }
 }
 
@@ -91,39 +116,66 @@ fn refuse(stream: &TcpStream) {
 /// A whole answer outside of a connection that is served.
 fn bare(status: StatusCode, message: &str) -> Vec<u8> {
     let body = format!("{}\n", Refusal::new(status, message).to_json());
-    let length = body.len();
-    format!(
-        "HTTP/1.1 {status}\r\ncontent-type: application/json\r\ncontent-length: {length}\r\n\
-         connection: close\r\ncache-control: no-store\r\n\r\n{body}"
-    )
-    .into_bytes()
+    let mut answer = format!(
+        "HTTP/1.1 {status}\r\ncontent-type: application/json\r\ncontent-length: {}\r\n\
+         connection: close\r\n",
+        body.len()
+    );
+    for (name, value) in &PROTECTION {
+        let _ = write!(answer, "{name}: {value}\r\n");
+    }
+    (answer + "\r\n" + &body).into_bytes()
 }
 
-/// A stream whose reader has some time to take more, and has gone if it does not.
+/// Our answer in place of what `hyper` says of a request that it cannot read, which has none of our
+/// headers.
+fn in_place_of(written: &[u8]) -> Option<Vec<u8>> {
+    let status = written.strip_prefix(b"HTTP/1.")?.get(2..5)?;
+    let status = StatusCode::from_bytes(status).ok().filter(StatusCode::is_client_error)?;
+    let (own, _) = &PROTECTION[0];
+    let is_own = written.windows(own.as_str().len()).any(|it| it == own.as_str().as_bytes());
+    let message = match status {
+        StatusCode::URI_TOO_LONG | StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE => {
+            "the head of the request is too large"
+        }
+        _ => "this is no request of HTTP",
+    };
+    (!is_own).then(|| bare(status, message))
+}
+
+/// A stream whose reader has some time to take more, and has gone if it takes nothing or little.
 struct Patient {
     stream: TcpStream,
     patience: Duration,
-    /// Runs while something waits to be taken.
-    waits: Option<Pin<Box<Sleep>>>,
+    /// What a reader takes at the least [bytes/s].
+    slowest: u32,
+    /// How long it was waited for the reader, less the time that its bytes may take.
+    waited: Duration,
+    /// Runs while something waits to be taken, since then.
+    waits: Option<(Instant, Pin<Box<Sleep>>)>,
 }
 
 impl Patient {
-    fn new(stream: TcpStream, patience: Duration) -> Self {
-        Self { stream, patience, waits: None }
+    fn new(stream: TcpStream, limits: &Limits) -> Self {
+        let &Limits { write_time: patience, slowest, .. } = limits;
+        Self { stream, patience, slowest, waited: Duration::ZERO, waits: None }
     }
 
-    /// What a write came to, unless nothing was taken for too long.
-    fn timed<T>(
+    /// What a write came to, unless too little was taken for too long.
+    fn timed(
         &mut self,
         context: &mut Context<'_>,
-        written: Poll<io::Result<T>>,
-    ) -> Poll<io::Result<T>> {
-        if written.is_ready() {
-            self.waits = None;
-            return written;
+        written: Poll<io::Result<usize>>,
+    ) -> Poll<io::Result<usize>> {
+        if let Poll::Ready(written) = written {
+            self.waited += self.waits.take().map_or(Duration::ZERO, |(since, _)| since.elapsed());
+            let bytes = written.as_ref().map_or(0, |bytes| *bytes as u64);
+            self.waited = self.waited.saturating_sub(Duration::from_secs(bytes) / self.slowest);
+            return Poll::Ready(written);
         }
-        let until = Instant::now() + self.patience;
-        let waits = self.waits.get_or_insert_with(|| Box::pin(tokio::time::sleep_until(until)));
+        let (now, left) = (Instant::now(), self.patience.saturating_sub(self.waited));
+        let (_, waits) =
+            self.waits.get_or_insert_with(|| (now, Box::pin(tokio::time::sleep_until(now + left))));
         waits.as_mut().poll(context).map(|()| Err(io::ErrorKind::TimedOut.into()))
     }
 }
@@ -144,6 +196,10 @@ impl AsyncWrite for Patient {
         context: &mut Context<'_>,
         bytes: &[u8],
     ) -> Poll<io::Result<usize>> {
+        if let Some(answer) = in_place_of(bytes) {
+            // It is the last that is written, and short.
+            return Poll::Ready(self.stream.try_write(&answer).map(|_| bytes.len()));
+        }
         let written = Pin::new(&mut self.stream).poll_write(context, bytes);
         self.timed(context, written)
     }
@@ -153,6 +209,9 @@ impl AsyncWrite for Patient {
         context: &mut Context<'_>,
         parts: &[io::IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
+        if let [only] = parts {
+            return self.poll_write(context, only);
+        }
         let written = Pin::new(&mut self.stream).poll_write_vectored(context, parts);
         self.timed(context, written)
     }
@@ -162,8 +221,7 @@ impl AsyncWrite for Patient {
     }
 
     fn poll_flush(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {
-        let flushed = Pin::new(&mut self.stream).poll_flush(context);
-        self.timed(context, flushed)
+        Pin::new(&mut self.stream).poll_flush(context)
     }
 
     fn poll_shutdown(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<io::Result<()>> {

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grouser::document::file::{FileProblem, confined_map};
+use grouser::document::file::{FileProblem, confined_map, opener};
 use grouser::document::{self, Beside, DocumentError, Kind, Overrides, Source};
 
 /// The folder of documents, or none.
@@ -72,6 +72,11 @@ impl ServedFolder {
     /// The path of a map, or of areas, which lies in the folder with all that is read with it.
     pub(crate) fn find_map(&self, name: &str) -> Result<PathBuf, FileProblem> {
         confined_map(Path::new(name), self.within())
+    }
+
+    /// Opens a file of the folder, and none outside of it.
+    pub(crate) fn open_file(&self, path: &Path) -> io::Result<fs::File> {
+        opener(Some(self.within()))(path)
     }
 
     /// The documents of the folder, each known by its `schema`.

@@ -15,9 +15,15 @@ pub struct Limits {
     pub body_bytes: usize,
     /// Time without progress after which a reader has gone.
     pub write_time: Duration,
+    /// Bytes in a second that a reader takes at the least; who takes fewer has as much time as one
+    /// who takes none.
+    pub slowest: u32,
+    /// Bytes of answers that wait for their readers, of all together.
+    pub answer_bytes: u32,
     /// Computations that take long, at a time: those with samples. Each has all processors.
     pub runs: usize,
-    /// Computations that wait for these, or are quick. One more is refused with 503.
+    /// Computations that wait for these, are quick, or have a reader who has not taken all. One more
+    /// is refused with 503.
     pub waiting: usize,
     /// Time of a computation.
     pub run_time: Duration,
@@ -32,6 +38,8 @@ impl Default for Limits {
             body_time: Duration::from_secs(10),
             body_bytes: 1 << 20,
             write_time: Duration::from_secs(20),
+            slowest: 16 << 10,
+            answer_bytes: 128 << 20,
             runs: 2,
             waiting: 64,
             run_time: Duration::from_secs(60),

@@ -26,6 +26,13 @@ impl Refusal {
         Self { key: Some(key.to_owned()), ..refusal }
     }
 
+    /// A computation that was stopped.
+    pub(crate) fn stopped() -> Self {
+        let message = "it was stopped before its end: it took too long, or the server ends";
+        Self::new(StatusCode::SERVICE_UNAVAILABLE, message)
+            .with_hint("ask for fewer samples, or rows")
+    }
+
     /// The same with what helps.
     pub(crate) fn with_hint(self, hint: impl Into<String>) -> Self {
         Self { hint: Some(hint.into()), ..self }

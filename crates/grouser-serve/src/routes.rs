@@ -49,7 +49,7 @@ pub(crate) async fn respond(
 
 /// Nothing is loaded but from here, nothing runs but the page's scripts, no other page frames or
 /// reads it, and nothing is kept.
-const PROTECTION: [(HeaderName, &str); 8] = [
+pub(crate) const PROTECTION: [(HeaderName, &str); 8] = [
     (
         CONTENT_SECURITY_POLICY,
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \

@@ -16,6 +16,10 @@ pub(crate) struct RunPlaces {
     computing: Arc<Semaphore>,
     /// Of these, and of those that wait.
     all: Arc<Semaphore>,
+    /// Of those that read documents and maps.
+    reading: Arc<Semaphore>,
+    /// The memory for lines that wait for their readers [KiB].
+    lines: Arc<Semaphore>,
     time: Duration,
     /// Whether the server ends.
     has_ended: Arc<AtomicBool>,
@@ -34,16 +38,24 @@ pub(crate) struct GoOn {
     has_ended: Arc<AtomicBool>,
     until: Instant,
     computing: Arc<Semaphore>,
+    reading: Arc<Semaphore>,
+    lines: Arc<Semaphore>,
 }
 
 /// How often it is looked whether it is somebody's turn.
 const LOOK: Duration = Duration::from_millis(2);
+/// Questions that are read at a time: a map may take some dozen megabytes until it is read.
+const READING: usize = 4;
+/// Bytes of a permit for lines.
+const KIB: usize = 1 << 10;
 
 impl RunPlaces {
     pub(crate) fn new(limits: &Limits) -> Self {
         Self {
             computing: Arc::new(Semaphore::new(limits.runs)),
             all: Arc::new(Semaphore::new(limits.runs + limits.waiting)),
+            reading: Arc::new(Semaphore::new(READING)),
+            lines: Arc::new(Semaphore::new(limits.answer_bytes as usize / KIB)),
             time: limits.run_time,
             has_ended: Arc::default(),
         }
@@ -67,6 +79,8 @@ impl RunPlaces {
             has_ended,
             until: Instant::now() + self.time,
             computing: Arc::clone(&self.computing),
+            reading: Arc::clone(&self.reading),
+            lines: Arc::clone(&self.lines),
         };
         (Waiter(has_gone), go_on)
     }
@@ -95,9 +109,25 @@ impl GoOn {
     /// nobody waits for the answer any more. What is quick needs no turn, so that it is not behind
     /// what takes long.
     pub(crate) fn turn(&self) -> Option<OwnedSemaphorePermit> {
+        self.permits(&self.computing, 1)
+    }
+
+    /// Waits for the turn of reading a question.
+    pub(crate) fn reading_turn(&self) -> Option<OwnedSemaphorePermit> {
+        self.permits(&self.reading, 1)
+    }
+
+    /// Waits until readers have taken so much that there is room for a line.
+    pub(crate) fn room(&self, bytes: usize) -> Option<OwnedSemaphorePermit> {
+        let count = u32::try_from(bytes.div_ceil(KIB)).ok()?;
+        let at_once = Arc::clone(&self.lines).try_acquire_many_owned(count);
+        at_once.ok().or_else(|| self.permits(&self.lines, count))
+    }
+
+    fn permits(&self, of: &Arc<Semaphore>, count: u32) -> Option<OwnedSemaphorePermit> {
         while self.is_on() {
-            if let Ok(turn) = Arc::clone(&self.computing).try_acquire_owned() {
-                return Some(turn);
+            if let Ok(permits) = Arc::clone(of).try_acquire_many_owned(count) {
+                return Some(permits);
             }
             std::thread::sleep(LOOK);
         }

@@ -10,6 +10,7 @@ use tokio::runtime::{Builder, Runtime};
 use tokio::sync::Semaphore;
 
 use crate::access::Access;
+use crate::browser_page::BrowserPage;
 use crate::connection;
 use crate::console::Console;
 use crate::folder::ServedFolder;
@@ -99,7 +100,8 @@ impl Server {
         let listener = TcpListener::bind(asked).map_err(of_address)?;
         let address = listener.local_addr().map_err(of_address)?;
         listener.set_nonblocking(true).map_err(of_address)?;
-        let token = Token::random().map_err(ServeError::System)?;
+        let random = || Token::random().map_err(ServeError::System);
+        let secrets = [random()?, random()?];
         // One thread talks; answers are computed by others.
         let runtime = Builder::new_current_thread()
             .enable_io()
@@ -108,7 +110,7 @@ impl Server {
             .build()
             .map_err(ServeError::System)?;
         let console = Console {
-            access: Access::new(token, address, &settings.hosts),
+            access: Access::new(secrets, address, &settings.hosts),
             folder,
             runs: RunPlaces::new(&settings.limits),
             lists: Arc::new(Semaphore::new(1)),
@@ -122,6 +124,14 @@ impl Server {
     #[must_use]
     pub fn address(&self) -> String {
         self.console.access.url()
+    }
+
+    /// A page in a private file that leads a browser to [`address`](Self::address).
+    ///
+    /// # Errors
+    /// Where no such file can be written.
+    pub fn browser_page(&self) -> io::Result<BrowserPage> {
+        BrowserPage::of(&self.address())
     }
 
     /// The port.

@@ -1,6 +1,7 @@
 //! `grouser serve`: the console.
 
 use std::net::{IpAddr, Ipv4Addr};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use grouser_serve::{Limits, ServeError, Server, Settings};
@@ -23,8 +24,10 @@ pub(crate) fn run(args: &ServeArgs) -> Result<(), Failure> {
     if !address.is_loopback() {
         output::message(&exposed(address, args));
     }
-    if !args.no_open {
-        open(&url);
+    // It is there until the server ends.
+    let page = if args.no_open { None } else { server.browser_page().ok() };
+    if let Some(page) = &page {
+        open(page.path());
     }
     interrupt::handle_ctrl_c();
     Ok(server.run(interrupt::is_asked_to_stop)?)
@@ -45,7 +48,7 @@ fn exposed(address: IpAddr, args: &ServeArgs) -> String {
 }
 
 /// Opens the page in the user's browser. Without one the address is there to be opened by hand.
-fn open(url: &str) {
+fn open(page: &Path) {
     let (program, arguments): (&str, &[&str]) = if cfg!(target_os = "macos") {
         ("open", &[])
     } else if cfg!(windows) {
@@ -54,7 +57,7 @@ fn open(url: &str) {
         ("xdg-open", &[])
     };
     let mut open = Command::new(program);
-    open.args(arguments).arg(url).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    open.args(arguments).arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     drop(open.spawn());
 }
 

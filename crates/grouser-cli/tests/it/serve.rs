@@ -248,3 +248,41 @@ fn wrong_settings_say_what_is_wrong() {
     assert!(taken.stderr.contains("cannot be listened on"), "{}", taken.stderr);
     assert_eq!(place.run(&["serve", "--no-open", "--listen", "moon"]).code(), 2);
 }
+
+/// All users of a machine can read command lines: the browser is opened with a private file.
+#[test]
+#[cfg(target_os = "linux")]
+fn the_token_is_on_no_command_line() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let place = Place::new();
+    place.write(
+        "xdg-open",
+        "#!/bin/sh\nprintf %s \"$*\" > opened.part\ncat \"$1\" > read\nmv opened.part opened\n",
+    );
+    let program = place.file("xdg-open");
+    std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o755)).unwrap();
+    let path = std::env::var("PATH").unwrap_or_default();
+    let mut child = place
+        .command(&["serve"])
+        .env("PATH", format!("{}:{path}", program.parent().unwrap().display()))
+        .env("TMPDIR", place.path())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.as_mut().unwrap()).read_line(&mut line).unwrap();
+    let began = Instant::now();
+    while !place.file("opened").exists() {
+        assert!(began.elapsed() < Duration::from_secs(10), "no browser was opened");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    let _ = child.kill();
+    let _ = child.wait();
+    let read = |name: &str| std::fs::read_to_string(place.file(name)).unwrap();
+    assert!(
+        read("opened").contains("/grouser-") && !read("opened").contains("token"),
+        "{}",
+        read("opened")
+    );
+    assert!(read("read").contains(line.trim()), "{}", read("read"));
+}

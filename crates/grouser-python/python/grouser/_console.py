@@ -109,7 +109,8 @@ def serve(
     """
     path = None if folder is None else os.fspath(folder)
     names = [hosts] if isinstance(hosts, str) else list(hosts)
-    console = Console(_core.ConsoleServer(path, whole_number("port", port, most=65535), names))
-    if open_browser:
-        webbrowser.open(console.address)
-    return console
+    server = _core.ConsoleServer(path, whole_number("port", port, most=65535), names, open_browser)
+    if server.page is not None:
+        # A private file: all users of a machine can read the address on a command line.
+        webbrowser.open(server.page.as_uri())
+    return Console(server)

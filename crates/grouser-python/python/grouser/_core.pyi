@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any, final
 
 import numpy as np
@@ -126,7 +127,11 @@ class Document:
 
 @final
 class ConsoleServer:
-    def __new__(cls, folder: str | None, port: int, hosts: Sequence[str]) -> ConsoleServer: ...
+    def __new__(
+        cls, folder: str | None, port: int, hosts: Sequence[str], has_page: bool
+    ) -> ConsoleServer: ...
+    @property
+    def page(self) -> Path | None: ...
     @property
     def address(self) -> str: ...
     @property

@@ -3,15 +3,17 @@
 //! Its order of precedence: the notes, the file itself, the world file.
 
 use std::ffi::OsString;
-use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use roxmltree::{Document, Node};
 use tiff_reader::{OpenOptions, TiffFile};
 
 use super::affine::Affine;
 use super::metadata::check_unit;
+use super::opened_file::OpenedFile;
+use crate::MapPath;
 use crate::error::Fault;
 
 /// What lies beside a file, as far as it is there.
@@ -33,12 +35,13 @@ pub(super) struct PamNotes {
     pub(super) offset: Option<f64>,
 }
 
-/// The files beside a map that are read with it, of those that are there.
+/// The files beside a map that are read with it, of those that are there; links, too, that lead to
+/// none.
 #[must_use]
 pub fn beside(map: &Path) -> Vec<PathBuf> {
     let after = [".msk", ".aux.xml"].map(|ending| with_ending(map, ending));
     let worlds = WORLDS.map(|ending| map.with_extension(ending));
-    after.into_iter().chain(worlds).filter(|it| it.is_file()).collect()
+    after.into_iter().chain(worlds).filter(|it| it.is_file() || it.is_symlink()).collect()
 }
 
 /// Endings of files with a map's place, in the order in which they are looked for.
@@ -53,10 +56,16 @@ fn with_ending(map: &Path, ending: &str) -> PathBuf {
 impl Sidecars {
     /// * `band`: with the heights, from 1
     /// * `limits`: of the mask
-    pub(super) fn of(path: &Path, band: usize, limits: OpenOptions) -> Result<Self, Fault> {
+    pub(super) fn of(path: MapPath<'_>, band: usize, limits: OpenOptions) -> Result<Self, Fault> {
+        let MapPath { path, open } = path;
         let with = |ending: &str| Some(with_ending(path, ending)).filter(|it| it.is_file());
-        let mask = with(".msk").map(|it| TiffFile::open_with_options(it, limits)).transpose();
-        let mask = mask.map_err(|error| of_part(error.into(), ".msk"))?;
+        let text = |path: &Path| text(MapPath { path, open });
+        let mask = |path: PathBuf| -> Result<TiffFile, Fault> {
+            let source = OpenedFile::of(MapPath { path: &path, open })?;
+            Ok(TiffFile::from_source_with_options(Arc::new(source), limits)?)
+        };
+        let mask = with(".msk").map(mask).transpose();
+        let mask = mask.map_err(|fault| of_part(fault, ".msk"))?;
         let notes = with(".aux.xml").map(|it| PamNotes::of(&text(&it)?, band)).transpose();
         let notes = notes.map_err(|fault| of_part(fault, ".aux.xml"))?.unwrap_or_default();
         let worlds = WORLDS.map(|it| path.with_extension(it));
@@ -77,15 +86,16 @@ fn of_part(fault: Fault, ending: &str) -> Fault {
     }
 }
 
-fn text(path: &Path) -> Result<String, Fault> {
+fn text(path: MapPath<'_>) -> Result<String, Fault> {
     /// The longest that is read: histograms and tables of colours may be in it [bytes].
     const LONGEST: u64 = 1 << 22;
-    let length = fs::metadata(path)?.len();
+    let file = path.opened()?;
+    let length = file.metadata()?.len();
     if length > LONGEST {
         return Err(damaged(&format!("it has {length} bytes, and at most {LONGEST} are read")));
     }
     let mut bytes = Vec::new();
-    File::open(path)?.take(LONGEST).read_to_end(&mut bytes)?;
+    file.take(LONGEST).read_to_end(&mut bytes)?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 

@@ -11,9 +11,7 @@ mod syntax;
 
 pub use line::{decode_line_string, read_line_string};
 
-use std::fs::File;
 use std::io::Read;
-use std::path::Path;
 
 use grouser_core::units::Vec2;
 
@@ -21,10 +19,10 @@ use self::syntax::{Coordinates, Feature, Geometry, Root};
 use super::key::ZoneKey;
 use super::map::ZoneMap;
 use super::places::{PlacesSystem, is_in_degrees, shown};
-use crate::CoordinateSystem;
 use crate::error::{Fault, InnerFault};
 use crate::read::start_of;
 use crate::remark::Remark;
+use crate::{CoordinateSystem, MapPath};
 
 /// The largest file that is read [bytes]; polygons take some times as much memory.
 pub const LARGEST_FILE: u64 = 1 << 25;
@@ -39,7 +37,7 @@ pub(super) fn starts_so(start: &[u8]) -> bool {
 ///
 /// # Errors
 /// [`Fault`] if it has no polygons with soils.
-pub(super) fn read(path: &Path) -> Result<ZoneMap, Fault> {
+pub(super) fn read(path: MapPath<'_>) -> Result<ZoneMap, Fault> {
     decode(&bytes_of(path)?)
 }
 
@@ -47,7 +45,7 @@ pub(super) fn read(path: &Path) -> Result<ZoneMap, Fault> {
 ///
 /// # Errors
 /// [`Fault`] if it has no polygons, or the edge of one crosses itself.
-pub(super) fn read_areas(path: &Path) -> Result<ZoneMap, Fault> {
+pub(super) fn read_areas(path: MapPath<'_>) -> Result<ZoneMap, Fault> {
     decode_areas(&bytes_of(path)?)
 }
 
@@ -76,10 +74,10 @@ pub fn compare_system(bytes: &[u8], map: &CoordinateSystem) -> Result<Option<Rem
     PlacesSystem::of_root(&root).compare(map)
 }
 
-fn bytes_of(path: &Path) -> Result<Vec<u8>, Fault> {
+fn bytes_of(path: MapPath<'_>) -> Result<Vec<u8>, Fault> {
     start_of(path)?;
     let mut bytes = Vec::new();
-    File::open(path)?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+    path.opened()?.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

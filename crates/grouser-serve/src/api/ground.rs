@@ -5,9 +5,10 @@ use std::sync::Arc;
 use std::time::SystemTime;
 
 use grouser::document::LoadedScenario;
+use grouser::document::file::CONFINED_CELLS;
 use grouser::document::study::MAP_SPEED_M_S;
 use grouser::studies::verdict::{Rule, SlopeStudy};
-use grouser_raster::{Raster, ReadOptions};
+use grouser_raster::{MapPath, Raster, ReadOptions, beside};
 use hyper::StatusCode;
 use serde_json::{Value, json};
 
@@ -16,11 +17,9 @@ use super::fields::AskedFields;
 use super::parts::ScenarioParts;
 use super::rule;
 use crate::console::Console;
+use crate::folder::ServedFolder;
 use crate::kept::Kept;
 use crate::refusal::Refusal;
-
-/// Cells of a map at the most: 1024 × 1024.
-const CELLS: u64 = 1 << 20;
 
 /// What a question says of its map, and of who drives on it.
 pub(super) struct GroundFields {
@@ -37,6 +36,7 @@ pub(super) struct AskedGround {
     pub(super) dem: PathBuf,
     /// The file, without links.
     path: PathBuf,
+    pub(super) folder: ServedFolder,
     missing: Option<f64>,
     pub(super) scenario: LoadedScenario,
     pub(super) study: SlopeStudy,
@@ -74,6 +74,7 @@ impl GroundFields {
         Ok(AskedGround {
             dem: PathBuf::from(&self.dem),
             path,
+            folder: console.folder.clone(),
             missing: self.missing,
             scenario,
             study,
@@ -98,9 +99,10 @@ impl AskedGround {
     /// The heights.
     pub(super) fn raster(&self) -> Result<Arc<Raster>, Refusal> {
         self.rasters.get_or(&json!([self.stamp(), self.missing]).to_string(), || {
-            let options =
-                ReadOptions { cells: Some(CELLS), missing: self.missing, ..ReadOptions::default() };
-            grouser_raster::read(&self.path, &options).map_err(|error| {
+            let (cells, missing) = (Some(CONFINED_CELLS), self.missing);
+            let options = ReadOptions { cells, missing, ..ReadOptions::default() };
+            let open = &|path: &Path| self.folder.open_file(path);
+            grouser_raster::read(MapPath { path: &self.path, open }, &options).map_err(|error| {
                 let (message, hint) = error.fault.in_parts("map", Some(&error.file));
                 Refusal { hint, ..Refusal::of_key("dem", message) }
             })
@@ -116,14 +118,21 @@ impl AskedGround {
         json!([of_map, self.scenario.document, rim_speed, rule, more]).to_string()
     }
 
-    /// By it a file is known that was written anew.
+    /// By it files are known that were written anew: the map, those beside it, and those that the
+    /// documents name.
     fn stamp(&self) -> Value {
-        let file = std::fs::metadata(&self.path).ok();
-        let since = |time: SystemTime| time.duration_since(SystemTime::UNIX_EPOCH).ok();
-        let written = file.as_ref().and_then(|it| it.modified().ok()).and_then(since);
-        let written = written.map(|it| it.as_nanos().to_string());
-        json!([shown(&self.path), file.map(|it| it.len()), written])
+        let named = self.scenario.given.iter().map(|given| PathBuf::from(&given.file));
+        let files = std::iter::once(self.path.clone()).chain(beside(&self.path)).chain(named);
+        files.map(|file| stamp(&file)).collect()
     }
+}
+
+fn stamp(path: &Path) -> Value {
+    let file = std::fs::metadata(path).ok();
+    let since = |time: SystemTime| time.duration_since(SystemTime::UNIX_EPOCH).ok();
+    let written = file.as_ref().and_then(|it| it.modified().ok()).and_then(since);
+    let written = written.map(|it| it.as_nanos().to_string());
+    json!([shown(path), file.map(|it| it.len()), written])
 }
 
 /// A path as answers have it.

@@ -2,7 +2,7 @@
 //! simulation takes minutes on rough ground, and nobody could stop it.
 
 use std::cell::RefCell;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use grouser::answers::route::{Asked, RouteQuestion, WayError};
@@ -15,7 +15,7 @@ use grouser::studies::route::{COURSES, Ends, Limits, Objective, RouteError, Rout
 use grouser::units::Vec2;
 use grouser_map::way_as_geojson;
 use grouser_raster::zones::ZoneCounts;
-use grouser_raster::{Raster, RasterError};
+use grouser_raster::{MapPath, Raster, RasterError};
 use hyper::StatusCode;
 use serde_json::{Value, json};
 
@@ -132,8 +132,10 @@ impl RouteAsked {
             let (message, hint) = error.fault.in_parts("file of areas", Some(&error.file));
             Refusal { hint, ..Refusal::of_key("keep_out", message) }
         };
-        let (study, counts, remark) =
-            study.keeping_out_of(file, &raster.frame()).map_err(of_areas)?;
+        let open = &|path: &Path| self.ground.folder.open_file(path);
+        let (study, counts, remark) = study
+            .keeping_out_of(MapPath { path: file, open }, &raster.frame())
+            .map_err(of_areas)?;
         remarks.extend(remark.map(|it| it.to_string()));
         let ZoneCounts { there, used } = counts;
         Ok((study, vec![GivenFile::new(shown(name), FileContent::KeepOut, there, used)], remarks))

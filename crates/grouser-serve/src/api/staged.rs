@@ -220,11 +220,7 @@ fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
 /// Why there is no answer.
 pub(super) fn refused(error: AnswerError) -> Refusal {
     match error {
-        AnswerError::Stopped => {
-            let message = "it was stopped before its end: it took too long, or the server ends";
-            Refusal::new(StatusCode::SERVICE_UNAVAILABLE, message)
-                .with_hint("ask for fewer samples, or rows")
-        }
+        AnswerError::Stopped => Refusal::stopped(),
         AnswerError::Key(error) => Refusal::of_key("gradients", error.to_string()),
         AnswerError::Together(..) => {
             Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, error.to_string())

@@ -1,6 +1,7 @@
 //! What may be opened: documents of the folder, and nothing outside of it.
 
 use std::fs;
+use std::time::{Duration, Instant};
 
 use grouser::document::{Kind, preset};
 use grouser_serve::Settings;
@@ -63,6 +64,63 @@ fn no_name_leads_out_of_the_folder() {
     let absent = refusal(&server, "stand", &json!({"soil": "../nothing.toml"}));
     let present = refusal(&server, "stand", &json!({"soil": "../secret.toml"}));
     assert_eq!(absent, present);
+    // Nor behind a link, of a document, a map or a file beside a map.
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::symlink;
+        let folder = outside.path().join("folder");
+        symlink(outside.path().join("nothing.toml"), folder.join("broken.toml")).unwrap();
+        fs::create_dir(outside.path().join("closed")).unwrap();
+        let same = |question: &str, of: &dyn Fn(&str) -> Value, names: [&str; 4]| {
+            let [first, rest @ ..] = names.map(|name| {
+                let mut error = refusal(&server, question, &of(name));
+                let said = error["error"].as_str().unwrap().replace(name, "NAME");
+                error["error"] = said.into();
+                error
+            });
+            assert!(first["error"].as_str().unwrap().contains("leads out"), "{first}");
+            assert!(rest.iter().all(|other| first == *other), "{first}, {rest:?}");
+        };
+        let names = ["out/secret.toml", "out/nothing.toml", "out/closed/x.toml", "broken.toml"];
+        same("stand", &|name| json!({ "soil": name }), names);
+        same("map", &|name| json!({ "dem": name }), names);
+        for (name, target) in [("a", "secret.toml"), ("b", "nothing.toml"), ("c", "closed")] {
+            fs::write(folder.join(format!("{name}.tif")), "no map").unwrap();
+            let beside = folder.join(format!("{name}.tfw"));
+            symlink(outside.path().join(target), beside).unwrap();
+            let error = refusal(&server, "map", &json!({"dem": format!("{name}.tif")}));
+            assert!(error["error"].as_str().unwrap().contains("leads out"), "{error}");
+        }
+    }
+}
+
+/// While links come and go, nothing outside is read.
+#[cfg(unix)]
+#[test]
+fn links_that_come_and_go_lead_nowhere() {
+    let (outside, server) = served();
+    let folder = outside.path().join("folder");
+    let sand = fs::read_to_string(folder.join("sub/sand.toml")).unwrap();
+    let secret = sand.replace("Toyoura sand", "secret sand");
+    fs::create_dir(outside.path().join("other")).unwrap();
+    fs::write(outside.path().join("other/sand.toml"), secret).unwrap();
+    let until = Instant::now() + Duration::from_secs(2);
+    let swapping = std::thread::spawn({
+        let (folder, other) = (folder.clone(), outside.path().join("other"));
+        move || {
+            while Instant::now() < until {
+                fs::rename(folder.join("sub"), folder.join("kept")).unwrap();
+                std::os::unix::fs::symlink(&other, folder.join("sub")).unwrap();
+                fs::remove_file(folder.join("sub")).unwrap();
+                fs::rename(folder.join("kept"), folder.join("sub")).unwrap();
+            }
+        }
+    });
+    while Instant::now() < until {
+        let reply = server.post("stand", &json!({"soil": "sub/sand.toml"}));
+        assert!(!reply.body.contains("secret sand"), "{reply:?}");
+    }
+    swapping.join().unwrap();
 }
 
 #[test]

@@ -100,6 +100,61 @@ fn one_computation_too_many_is_refused() {
     }
 }
 
+/// A second request behind the first, which waits for its turn, hides that nobody waits for either.
+#[test]
+fn requests_behind_others_are_stopped_with_them() {
+    let server = limited(Limits { runs: 1, waiting: 0, ..Limits::default() });
+    let body = json!({"soil": "toyoura-uncertain", "samples": 10000, "slope_deg": [5, 10, 15]});
+    let body = body.to_string();
+    let head = head(&server, &format!("Content-Length: {}", body.len()));
+    let request = head.replace("/api/stand", "/api/heading") + &body;
+    let mut stream = server.connect();
+    stream.write_all(request.repeat(2).as_bytes()).unwrap();
+    std::thread::sleep(Duration::from_millis(200));
+    assert_eq!(server.post("stand", &json!({})).status, 503);
+    drop(stream);
+    let began = Instant::now();
+    while server.post("stand", &json!({})).status != 200 {
+        assert!(began.elapsed() < Duration::from_secs(5), "an aborted run goes on");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+/// Who takes a little again and again holds what waits no longer than who takes nothing.
+#[test]
+fn slow_readers_have_an_end() {
+    let server = limited(Limits {
+        write_time: Duration::from_secs(1),
+        slowest: 100 << 20,
+        ..Limits::default()
+    });
+    let get = head(&server, "").replace("POST /api/stand", "GET /map.js");
+    let mut stream = server.connect();
+    let mut sending = stream.try_clone().unwrap();
+    // Whatever the system keeps for a reader is full of these.
+    let sent =
+        std::thread::spawn(move || (0..3000).all(|_| sending.write_all(get.as_bytes()).is_ok()));
+    let (began, mut taken) = (Instant::now(), vec![0; 256 << 10]);
+    while began.elapsed() < Duration::from_secs(4) {
+        if stream.read(&mut taken).is_ok_and(|bytes| bytes == 0) {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    let mut rest = Vec::new();
+    let whole = stream.read_to_end(&mut rest).is_ok() && sent.join().unwrap();
+    assert!(!whole || rest.is_empty(), "the server waits on: {} bytes", rest.len());
+}
+
+/// Answers that nobody takes fill no more than their part of the memory.
+#[test]
+fn answers_without_room_are_refused() {
+    let server = limited(Limits { answer_bytes: 4 << 10, ..Limits::default() });
+    let reply = server.post("scenario", &json!({}));
+    assert_eq!(reply.status, 503, "{reply:?}");
+    assert!(reply.lines()[0]["error"].as_str().unwrap().contains("no room"), "{reply:?}");
+}
+
 #[test]
 fn a_computation_that_takes_too_long_is_stopped() {
     let server = limited(Limits { run_time: Duration::from_millis(100), ..Limits::default() });

@@ -4,5 +4,6 @@ mod access;
 mod answers;
 mod folder;
 mod limits;
+mod load;
 mod map;
 mod served;

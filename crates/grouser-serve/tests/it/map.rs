@@ -5,6 +5,8 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
+use grouser::document::{Kind, preset};
+use grouser_raster::ReadOptions;
 use grouser_serve::{Limits, Settings};
 use serde_json::{Value, json};
 use tempfile::TempDir;
@@ -170,4 +172,67 @@ fn maps_are_bounded() {
     let large = refusal(&server, "map", &json!({"dem": "large.npy"}));
     assert_eq!(large["key"], "dem", "{large}");
     assert!(large["error"].as_str().unwrap().contains("1048576"), "{large}");
+}
+
+/// What lies beside a map, or is named by a document, belongs to it.
+#[test]
+fn a_changed_file_beside_a_map_is_seen() {
+    let (outside, server) = served(Limits::default());
+    let folder = outside.path().join("folder");
+    let raster = grouser_raster::read(&folder.join("plane.xyz"), &ReadOptions::default()).unwrap();
+    let map = grouser_map::elevation_model(Path::new("plane.tif"), &raster).unwrap();
+    fs::write(folder.join("plane.tif"), map).unwrap();
+    let with_cells = |size: f64| {
+        let place = format!("<GeoTransform>0, {size}, 0, 0, 0, -{size}</GeoTransform>");
+        let notes = format!("<PAMDataset>{place}</PAMDataset>");
+        fs::write(folder.join("plane.tif.aux.xml"), notes).unwrap();
+    };
+    let answer = |more: &Value| {
+        let mut question = asked(more);
+        question["dem"] = "plane.tif".into();
+        let reply = server.post("map", &question);
+        assert_eq!(reply.status, 200, "{reply:?}");
+        reply.lines().remove(0)
+    };
+    let steepest = || answer(&json!({}))["files"][0]["most"].as_f64().unwrap();
+    let at_first = steepest();
+    with_cells(2.0);
+    let wider = steepest();
+    assert!(wider < 0.6 * at_first, "{at_first}, {wider}");
+    with_cells(4.0);
+    assert!(steepest() < 0.6 * wider);
+
+    let sand = preset(Kind::Soil, "toyoura").unwrap().text;
+    let sampled = format!("{sand}\n[uncertainty]\nsamples = \"samples.csv\"\n");
+    fs::write(folder.join("sampled.toml"), sampled).unwrap();
+    let friction = |angle: f64| {
+        let rows: String =
+            (0..20).map(|at| format!("{}\n", angle + 0.01 * f64::from(at))).collect();
+        fs::write(folder.join("samples.csv"), format!("friction_angle_deg\n{rows}")).unwrap();
+        answer(&json!({"soil": "sampled.toml"}))["files"].clone()
+    };
+    // On its own slope, for which the weaker soil is too weak.
+    with_cells(1.0);
+    assert_ne!(friction(38.0), friction(12.0));
+}
+
+/// Nor are larger ones read that a document names, nor longer ones.
+#[test]
+fn maps_of_documents_are_bounded() {
+    let (outside, server) = served(Limits::default());
+    let folder = outside.path().join("folder");
+    let mut header = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    header.extend(b"{'descr': '<f4', 'fortran_order': False, 'shape': (2000, 2000), }");
+    header.resize(128, b' ');
+    header.resize(128 + 16_000_000, 0);
+    fs::write(folder.join("large.npy"), header).unwrap();
+    let long = fs::File::create(folder.join("long.xyz")).unwrap();
+    long.set_len((1 << 26) + 1).unwrap();
+    for (name, said) in [("large.npy", "1048576"), ("long.xyz", "67108864 bytes")] {
+        let set = json!({"scenario.terrain.file": name, "scenario.terrain.cell_size_m": 1});
+        let error = refusal(&server, "traverse", &json!({ "set": set }));
+        assert!(error["error"].as_str().unwrap().contains(said), "{error}");
+    }
+    let error = refusal(&server, "map", &json!({"dem": "long.xyz"}));
+    assert!(error["error"].as_str().unwrap().contains("67108864 bytes"), "{error}");
 }

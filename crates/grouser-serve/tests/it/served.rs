@@ -14,6 +14,7 @@ use serde_json::Value;
 pub(crate) struct Served {
     pub(crate) port: u16,
     pub(crate) token: String,
+    pub(crate) url: String,
     has_ended: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
@@ -34,7 +35,7 @@ impl Served {
         let has_ended = Arc::new(AtomicBool::new(false));
         let ended = Arc::clone(&has_ended);
         let run = move || server.run(|| ended.load(Ordering::Relaxed)).unwrap();
-        Self { port, token, has_ended, thread: Some(std::thread::spawn(run)) }
+        Self { port, token, url, has_ended, thread: Some(std::thread::spawn(run)) }
     }
 
     /// A server of presets, with the usual limits.
@@ -50,7 +51,11 @@ impl Served {
 
     /// Sends the bytes of a request, and reads until the server has nothing more to say.
     pub(crate) fn send(&self, request: &str) -> Reply {
-        let mut stream = self.connect();
+        Self::send_on(self.connect(), request)
+    }
+
+    /// The same on a connection that is there.
+    pub(crate) fn send_on(mut stream: TcpStream, request: &str) -> Reply {
         // What is refused before its end may not be read to it.
         let _ = stream.write_all(request.as_bytes());
         Reply::read(stream)

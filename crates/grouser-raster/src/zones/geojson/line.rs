@@ -25,7 +25,7 @@ pub fn read_line_string(
     map: &MapFrame<'_>,
 ) -> Result<(Vec<Vec2>, Option<Remark>), RasterError> {
     let line = || {
-        let (line, system) = line_in(&bytes_of(path)?)?;
+        let (line, system) = line_in(&bytes_of(path.into())?)?;
         let remark = map.system.map_or(Ok(None), |of_map| system.compare(of_map))?;
         if let Some(places) = Extent::around(&line) {
             check_places_on(&map.extent, &places)?;

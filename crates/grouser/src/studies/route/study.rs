@@ -1,9 +1,7 @@
 //! What routes are made of.
 
-use std::path::Path;
-
 use grouser_raster::zones::{ZoneCounts, ZoneKey};
-use grouser_raster::{MapFrame, RasterError, Remark, read_areas};
+use grouser_raster::{MapFrame, MapPath, RasterError, Remark, read_areas};
 
 use crate::studies::verdict::SlopeStudy;
 use crate::terrain::SoilZones;
@@ -74,17 +72,18 @@ impl RouteStudy {
     ///
     /// # Errors
     /// [`RasterError`] if the file has no such polygons on this ground, or is in another system.
-    pub fn keeping_out_of(
+    pub fn keeping_out_of<'p>(
         self,
-        file: &Path,
+        file: impl Into<MapPath<'p>>,
         ground: &MapFrame<'_>,
     ) -> Result<(Self, ZoneCounts, Option<Remark>), RasterError> {
+        let file = file.into();
         let (map, remark) = read_areas(file, ground)?;
         let counts = map.counts(Some(&ground.extent));
         // That there is a zone is all that counts.
         let legend = [(ZoneKey::Class(0), Some(0))];
         let zones = map.with_legend(&legend, vec![self.mobility.heading.soil]);
-        let zones = zones.map_err(|fault| RasterError { file: file.to_owned(), fault })?;
+        let zones = zones.map_err(|fault| RasterError { file: file.path.to_owned(), fault })?;
         Ok((Self { keep_out: Some(zones), ..self }, counts, remark))
     }
 }
