@@ -7,6 +7,7 @@ compares the page with what the program prints for the command under the answer.
 pictures it writes one of each view. The last line has the counts.
 """
 
+import html
 import json
 import math
 import re
@@ -18,9 +19,12 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-VIEWS = ("heading", "wheel", "drive", "map")
+VIEWS = ("heading", "wheel", "drive", "map", "design")
 #: The sessions that views are looked at with, where they show little by themselves.
-SEEN = {"map": "view=map&at=10,20&from=-35,-35&to=35,35"}
+SEEN = {
+    "map": "view=map&at=10,20&from=-35,-35&to=35,35",
+    "design": "view=design&belief=nominal&trade=energy_j_per_m,wheel_mass_kg",
+}
 SIZES = [(1280, 720), (820, 1180)]
 THEMES = ("light", "dark")
 IMPACTS = ("serious", "critical")
@@ -98,6 +102,15 @@ def opened(browser, server, fragment="", size=SIZES[0], theme="light", bypass=Fa
     )
     page.goto(f"{server.address}#{fragment}")
     settled(page)
+    return page, flaws
+
+
+def started(browser, server, fragment, *how, **more):
+    """The same, where a study that starts by hand has its answer."""
+    page, flaws = opened(browser, server, fragment, *how, **more)
+    if page.locator("#start").count():
+        page.locator("#start").click()
+        settled(page)
     return page, flaws
 
 
@@ -282,19 +295,74 @@ def use_drive(looks, browser, server):
     page.context.close()
 
 
+def design_differs(page, server):
+    """Where the limits and the designs have other numbers than the program's."""
+    found = server.run(page.locator("#command").inner_text())
+    flaws = []
+    for at, rows in enumerate([found["constraints"], found["designs"]]):
+        lines = page.locator(".wide table").nth(at).locator("tbody tr")
+        if lines.count() != len(rows):
+            flaws.append(f"there are {lines.count()} rows, the program has {len(rows)}")
+            continue
+        for place, row in enumerate(rows):
+            for cell in lines.nth(place).locator("td").all():
+                column = cell.get_attribute("data-column")
+                own = four(row[column]) if isinstance(row[column], (int, float)) else str(row[column])
+                if cell.inner_text() != own:
+                    flaws.append(f"{column} is {cell.inner_text()}, the program has {own}")
+    return flaws
+
+
+def use_design(looks, browser, server):
+    page, flaws = opened(browser, server, "view=design&belief=nominal")
+    page.get_by_role("spinbutton", name=re.compile("limit_slope_deg, at least", re.IGNORECASE)).fill("20")
+    settled(page)
+    page.locator("#start").press("Enter")
+    settled(page)
+    looks.claim("a design is the program's", design_differs(page, server))
+    page.locator("#belief").select_option("samples")
+    page.locator("#design").select_option("design-climbing-wheels")
+    settled(page)
+    page.locator("#start").press("Enter")
+    page.locator("#progress-words", has_text="measured").wait_for(timeout=60000)
+    page.keyboard.press("Enter")
+    settled(page)
+    is_over = page.locator("#progress").is_hidden() and page.locator("#start").is_enabled()
+    looks.claim("a search is stopped by the keyboard", [] if is_over else ["it goes on"])
+    looks.claim("the keyboard reaches everything about a design", unreached(page))
+    looks.claim("nothing goes wrong about a design", flaws)
+    page.context.close()
+
+
+def slide_differs(page):
+    """What is wrong with the picture that a key saves."""
+    page.evaluate("document.activeElement.blur()")
+    with page.expect_download(timeout=60000) as saved:
+        page.keyboard.press("i")
+    svg = Path(saved.value.path()).read_text(encoding="utf-8")
+    settled(page)
+    command = page.locator("#command").inner_text()
+    flaws = [] if re.search(r'width="320mm" height="180mm"|viewBox="0 0 320 180"', svg) else ["it is not 16 to 9"]
+    # A long command has several lines.
+    words = html.unescape(" ".join(re.findall(r"<text[^>]*>([^<]*)</text>", svg)))
+    return flaws + ([] if command in words else [f"it has {words}, and not {command}"])
+
+
 def look_at_views(looks, browser, server, axe, pictures):
     for view in VIEWS:
         for size in SIZES:
             for theme in THEMES:
-                page, flaws = opened(browser, server, SEEN.get(view, f"view={view}"), size, theme)
+                page, flaws = started(browser, server, SEEN.get(view, f"view={view}"), size, theme)
                 if page.evaluate("document.documentElement.scrollWidth > document.documentElement.clientWidth"):
                     flaws.append("wider than the window")
                 if "token" in page.url:
                     flaws.append("the address keeps the token")
+                if (size, theme) == (SIZES[0], "light"):
+                    looks.claim(f"a key saves a slide of {view}", slide_differs(page))
                 if pictures and (size, theme) == (SIZES[0], "light"):
                     page.screenshot(path=str(Path(pictures, f"{view}.png")))
                 page.context.close()
-                page, _ = opened(browser, server, SEEN.get(view, f"view={view}"), size, theme, bypass=True)
+                page, _ = started(browser, server, SEEN.get(view, f"view={view}"), size, theme, bypass=True)
                 page.evaluate(axe)
                 flaws += page.evaluate(AXE, list(IMPACTS))
                 page.context.close()
@@ -348,6 +416,7 @@ def use(looks, browser, server):
     looks.claim("the keyboard reaches everything about a wheel", unreached(page))
     page.context.close()
     use_drive(looks, browser, server)
+    use_design(looks, browser, server)
     use_map(looks, browser, server)
 
 

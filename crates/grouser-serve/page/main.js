@@ -1,7 +1,8 @@
 // The page: the session, its sliders, and the view that is asked for.
 
-import { Asking, list } from "./api.js";
-import { byId, element } from "./dom.js";
+import { Asking, ask, list } from "./api.js";
+import { byId, element, save } from "./dom.js";
+import { DesignAnswer, about as aboutDesign } from "./design.js";
 import { Dial } from "./dial.js";
 import { DriveAnswer } from "./drive.js";
 import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
@@ -26,6 +27,8 @@ let wheel;
 let map;
 /** @type {DriveAnswer | undefined} */
 let drive;
+/** @type {DesignAnswer | undefined} */
+let design;
 /** @type {string[]} */
 let maps = [];
 /** @type {string[]} */
@@ -33,7 +36,13 @@ let areas = [];
 /** Keys that the sliders do not have: what of a scenario makes no difference to a heading. */
 const GRAVITY = "scenario.gravity_m_s2";
 const MOST_PINNED = 2;
-const VIEWS = ["heading", "wheel", "drive", "map"];
+/** Which parts of the session each view has. */
+const VIEWS = /** @type {Record<string, Part[]>} */ ({
+  heading: ["rover", "soil", "belief", "model"], wheel: ["wheel", "soil", "belief", "model"], drive: ["rover", "soil", "model"],
+  map: ["dem", "rover", "soil", "model"], design: ["design", "belief"],
+});
+/** @typedef {"design" | "dem" | "rover" | "soil" | "wheel" | "model" | "belief"} Part */
+const PARTS = /** @type {Part[]} */ (["design", "dem", "rover", "soil", "wheel", "model", "belief"]);
 
 const asking = new Asking();
 const [answer, place] = [byId("answer"), byId("sliders")];
@@ -49,8 +58,13 @@ function complain(error) {
   }
   const field = key && byId(key);
   byId("session-error").textContent = error && !isPlaced ? error.message : "";
-  for (const name of ["dem", "rover", "soil", "wheel", "model"]) byId(name).removeAttribute("aria-invalid");
+  for (const name of PARTS) byId(name).removeAttribute("aria-invalid");
   if (error && field instanceof HTMLSelectElement) field.setAttribute("aria-invalid", "true");
+}
+
+/** The answer of the view. */
+function current() {
+  return /** @type {Record<string, typeof wheel | typeof map | typeof drive | typeof design>} */ ({ wheel, map, drive, design })[session.view] ?? cards[0];
 }
 
 let waiting = 0;
@@ -61,10 +75,7 @@ function moved() {
   if (waiting) return;
   waiting = requestAnimationFrame(() => {
     waiting = 0;
-    if (session.view === "wheel") wheel?.ask(session);
-    else if (session.view === "map") map?.ask(session);
-    else if (session.view === "drive") drive?.ask(session);
-    else cards[0]?.ask();
+    current()?.ask(session);
   });
 }
 
@@ -114,19 +125,31 @@ function group(title, inside, isOpen) {
 
 /** Makes the sliders of the documents that the session names, then asks. */
 function begin() {
-  if (!VIEWS.includes(session.view)) session.view = "heading";
+  if (!Object.hasOwn(VIEWS, session.view)) session.view = "heading";
   const [isWheel, isMap, isDrive] = ["wheel", "map", "drive"].map((view) => view === session.view);
-  for (const view of VIEWS) {
+  for (const view of Object.keys(VIEWS)) {
     const id = `view-${view}`;
     if (view === session.view) byId(id).setAttribute("aria-current", "page");
     else byId(id).removeAttribute("aria-current");
   }
-  const isHidden = /** @type {Record<string, boolean>} */ ({ dem: !isMap, rover: isWheel, wheel: !isWheel, belief: isMap || isDrive });
-  for (const [id, is] of Object.entries(isHidden)) byId(id).closest("label").hidden = is;
+  for (const part of PARTS) byId(part).closest("label").hidden = !VIEWS[session.view]?.includes(part);
   cards.forEach((card) => card.stop());
   wheel?.stop();
   map?.stop();
   drive?.stop();
+  design?.stop();
+  if (session.view === "design") {
+    asking.ask("design-task", aboutDesign(session), (line) => {
+      sliders = [];
+      place.replaceChildren(element("h2", {}, ["Move"]), ...(line.keys ?? []).map(ofKey), ...trades(line.measures ?? []));
+      design = new DesignAnswer(ended, () => announce("computing …"));
+      answer.replaceChildren(design.element);
+      moved();
+    }, (error) => {
+      if (error) complain(error);
+    });
+    return;
+  }
   const { rover, soil } = session;
   const question = isWheel ? { soil, wheel: aboutWheel(session).wheel } : { rover, soil };
   asking.ask(isWheel ? "stand" : "scenario", question, (line) => {
@@ -187,6 +210,21 @@ function courses() {
   return [element("div", { class: "slider" }, [element("label", {}, ["Course ", which])]), dial.element];
 }
 
+/**
+ * Two measures that a design trades for one another, or none.
+ * @param {{name: string, meaning: string}[]} measures
+ */
+function trades(measures) {
+  const chosen = session.trade.split(",");
+  const select = (/** @type {number} */ at) => element("select", { "aria-label": at ? "Trade for" : "Trade", onchange: () => {
+    const [one, other] = selects.map((it) => /** @type {any} */ (it).value);
+    session.trade = one && other && one !== other ? `${one},${other}` : "";
+    moved();
+  } }, ["", ...measures.map((it) => it.name)].map((name) => element("option", { value: name, selected: name === (chosen[at] ?? "") }, [name || "nothing"])));
+  const selects = [select(0), select(1)];
+  return [element("div", { class: "slider trade" }, ["Trade ", selects[0] ?? "", " for ", selects[1] ?? ""])];
+}
+
 /** What a run starts with. */
 function run() {
   const slope = ofSession("slope", "slope_deg", "Slope", "°", [0, 40]);
@@ -214,6 +252,7 @@ function ended(error) {
 function said() {
   if (session.view === "wheel") return "the wheel is up to date";
   if (session.view === "drive") return drive?.said() ?? "";
+  if (session.view === "design") return design?.said() ?? "";
   if (session.view === "map") return map ? saidOf(map) : "";
   const yaw = cards[0]?.yaw();
   const verdict = cards[0]?.row?.["verdict"]?.replace("_", " ") ?? "";
@@ -254,6 +293,24 @@ function showCards() {
   others.forEach((card) => card.ask());
 }
 
+/** Saves the last answer as a picture for a slide. */
+async function slide() {
+  const [name, question] = current()?.asking.asked ?? [];
+  if (!name) return;
+  const made = session.view === "design" && design?.slide;
+  if (made) {
+    save(`${name}.svg`, made);
+    return;
+  }
+  announce("computing the slide …");
+  const stages = question.stages?.slice(-1);
+  const asked = { ...question, ...(stages ? { stages } : {}), slide: true };
+  const error = await ask(name, asked, new AbortController().signal, (line) => {
+    if (line.slide) save(`${name}.svg`, line.slide);
+  }).catch((problem) => problem);
+  ended(error);
+}
+
 /** @param {string} view */
 function show(view) {
   session.view = view;
@@ -268,7 +325,7 @@ async function choices() {
   offer("dem", maps);
   session.dem ||= maps[0] ?? "";
   areas = paths("areas");
-  for (const kind of ["rover", "soil", "wheel"]) {
+  for (const kind of ["rover", "soil", "wheel", "design"]) {
     const select = byId(kind);
     const option = (/** @type {string} */ value, /** @type {string} */ title) =>
       element("option", { value, title }, [value]);
@@ -284,7 +341,7 @@ async function choices() {
 
 /** Shows in the session line what the session has. */
 function reflect() {
-  for (const name of /** @type {const} */ (["dem", "rover", "soil", "wheel", "model", "belief"])) {
+  for (const name of PARTS) {
     const select = /** @type {HTMLSelectElement} */ (byId(name));
     const value = session[name];
     if (value && ![...select.options].some((option) => option.value === value)) {
@@ -294,7 +351,7 @@ function reflect() {
   }
 }
 
-for (const name of /** @type {const} */ (["dem", "rover", "soil", "wheel", "model", "belief"])) {
+for (const name of PARTS) {
   byId(name).addEventListener("change", (/** @type {any} */ event) => {
     session[name] = event.target.value;
     // Numbers of one document are none of another.
@@ -312,7 +369,7 @@ byId("skip").addEventListener("click", (/** @type {Event} */ event) => {
   answer.focus();
   answer.scrollIntoView();
 });
-for (const view of VIEWS) byId(`view-${view}`).addEventListener("click", () => show(view));
+for (const view of Object.keys(VIEWS)) byId(`view-${view}`).addEventListener("click", () => show(view));
 addEventListener("hashchange", () => {
   ({ own: session, pinned } = fromAddress());
   reflect();
@@ -320,7 +377,11 @@ addEventListener("hashchange", () => {
 });
 addEventListener("keydown", (event) => {
   const isTyping = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
-  if (event.key === "p" && !isTyping && !event.ctrlKey && !event.metaKey && !event.altKey) byId("pin")?.click();
+  const button = { p: "pin", i: "slide" }[event.key];
+  if (button && !isTyping && !event.ctrlKey && !event.metaKey && !event.altKey) byId(button)?.click();
+});
+answer.addEventListener("click", (/** @type {any} */ event) => {
+  if (event.target.closest("#slide")) slide();
 });
 
 byId("busy").setAttribute("aria-live", "polite");

@@ -1,7 +1,7 @@
 //! A question that is answered: read, computed on a thread of its own, and sent line by line.
 
-use std::cell::Cell;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use bytes::Bytes;
 use grouser::document::guard::guarded;
@@ -33,9 +33,9 @@ pub(crate) async fn answer(
     let (fail, failed) = oneshot::channel();
     let console = Arc::clone(console);
     drop(tokio::task::spawn_blocking(move || {
-        let has_begun = Cell::new(false);
+        let has_begun = AtomicBool::new(false);
         let sent = |line: String| {
-            has_begun.set(true);
+            has_begun.store(true, Ordering::Relaxed);
             send.blocking_send((line + "\n").into()).is_ok()
         };
         let computed = guarded(|| read(&console, &body)?.answer(&go_on, &sent));
@@ -44,9 +44,10 @@ pub(crate) async fn answer(
             Err(Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, message))
         });
         // What fails before the first line is the answer; after some it is the last line.
+        let has_begun = || has_begun.load(Ordering::Relaxed);
         match computed {
             Ok(()) => {}
-            Err(refusal) if has_begun.get() => drop(sent(json::line(&refusal.to_json()))),
+            Err(refusal) if has_begun() => drop(sent(json::line(&refusal.to_json()))),
             Err(refusal) => drop(fail.send(refusal)),
         }
         drop(place);

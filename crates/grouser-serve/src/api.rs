@@ -2,6 +2,7 @@
 //! columns; its answer is lines of JSON.
 
 mod command;
+mod design;
 mod document;
 mod drawing;
 mod fields;
@@ -26,7 +27,7 @@ pub(crate) type List = fn(&Console) -> String;
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.
-pub(crate) static QUESTIONS: [(&str, Read); 10] = [
+pub(crate) static QUESTIONS: [(&str, Read); 12] = [
     ("heading", heading::read),
     ("heading-map", heading_map::read),
     ("wheel-test", wheel_test::read),
@@ -34,6 +35,8 @@ pub(crate) static QUESTIONS: [(&str, Read); 10] = [
     ("map-place", place::read),
     ("route", route::read),
     ("traverse", traverse::read),
+    ("design", design::read),
+    ("design-task", design::task),
     ("wheel-drawing", drawing::read),
     ("scenario", document::scenario),
     ("stand", document::stand),

@@ -33,6 +33,7 @@ mod folder;
 mod kept;
 mod limits;
 mod maps;
+mod progress;
 mod refusal;
 mod routes;
 mod runs;

@@ -16,7 +16,7 @@ use crate::folder::ServedFolder;
 use crate::refusal::Refusal;
 
 /// CommonSettings of a question, beside its numbers.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct CommonSettings {
     model: Option<String>,
     /// [m/s²].
@@ -61,13 +61,49 @@ pub(super) struct Stand {
     pub(super) asked_model: Option<Model>,
 }
 
+/// A study's document, with what is set in it.
+#[derive(Clone, Debug)]
+pub(super) struct StudyParts {
+    kind: Kind,
+    name: String,
+    settings: CommonSettings,
+}
+
+impl StudyParts {
+    /// * `key`: of the document in the question
+    pub(super) fn of(
+        fields: &AskedFields,
+        (kind, key): (Kind, &'static str),
+    ) -> Result<Self, Refusal> {
+        let name = fields.text(key)?;
+        let name = name.ok_or_else(|| {
+            Refusal::of_key(key, "it must be a preset, or the path of a document in the folder")
+        })?;
+        let settings = CommonSettings { set: set_of(fields)?, ..CommonSettings::default() };
+        Ok(Self { kind, name, settings })
+    }
+
+    /// The document, read by what reads its kind.
+    pub(super) fn read<T>(
+        &self,
+        folder: &ServedFolder,
+        read: fn(&Source, &Overrides) -> Result<T, DocumentError>,
+    ) -> Result<T, Refusal> {
+        let kinds = [self.kind, Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel, Kind::Motor];
+        let overrides = self.settings.overrides(folder, &kinds)?;
+        let source = find(self.kind.name(), folder, self.kind, &self.name)?;
+        read(&source, &overrides).map_err(|error| self.settings.blamed(&error))
+    }
+
+    pub(super) fn add_words(&self, line: &mut CommandLine) {
+        line.word(&self.name);
+        self.settings.add_words(line);
+    }
+}
+
 impl CommonSettings {
     fn of(fields: &AskedFields) -> Result<Self, Refusal> {
-        let mut set = Vec::new();
-        for (key, value) in fields.entries("set")? {
-            let toml = toml_of(&key, &value)?;
-            set.push((key, toml));
-        }
+        let set = set_of(fields)?;
         Ok(Self {
             model: fields.text("model")?,
             gravity: gravity(fields)?,
@@ -411,6 +447,16 @@ impl Stand {
     pub(super) fn model(&self) -> Model {
         self.asked_model.clone().unwrap_or_else(|| self.soil.document.usual_model(""))
     }
+}
+
+/// Keys of documents that a question sets, each with its value as TOML.
+fn set_of(fields: &AskedFields) -> Result<Vec<(String, String)>, Refusal> {
+    let entries = fields.entries("set")?.into_iter();
+    let each = entries.map(|(key, value)| {
+        let toml = toml_of(&key, &value)?;
+        Ok((key, toml))
+    });
+    each.collect()
 }
 
 /// A document that a question names.

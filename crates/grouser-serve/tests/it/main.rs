@@ -2,6 +2,7 @@
 
 mod access;
 mod answers;
+mod design;
 mod folder;
 mod limits;
 mod map;
