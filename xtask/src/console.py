@@ -19,11 +19,12 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-VIEWS = ("heading", "wheel", "drive", "map", "design")
+VIEWS = ("heading", "wheel", "drive", "map", "design", "campaigns")
 #: The sessions that views are looked at with, where they show little by themselves.
 SEEN = {
     "map": "view=map&at=10,20&from=-35,-35&to=35,35",
     "design": "view=design&belief=nominal&trade=energy_j_per_m,wheel_mass_kg",
+    "campaigns": "view=campaigns&runs=2000&out=looked",
 }
 SIZES = [(1280, 720), (820, 1180)]
 THEMES = ("light", "dark")
@@ -334,6 +335,40 @@ def use_design(looks, browser, server):
     page.context.close()
 
 
+def summary_differs(page, server):
+    """Where the means have other numbers than the program's."""
+    rows = server.run(page.locator("#command").inner_text())["rows"]
+    lines = page.locator(".wide table").nth(1).locator("tbody tr")
+    flaws = [] if lines.count() == len(rows) else [f"there are {lines.count()} rows, the program has {len(rows)}"]
+    for place, row in enumerate(rows):
+        mean = lines.nth(place).locator("[data-column='mean']").inner_text()
+        if mean not in (four(row["mean"]), "-"):
+            flaws.append(f"the mean of {row['quantity']} is {mean}, the program has {row['mean']}")
+    return flaws
+
+
+def use_campaigns(looks, browser, server):
+    page, flaws = opened(browser, server, "view=campaigns&out=sand")
+    page.get_by_label("Runs", exact=True).fill("200000")
+    page.get_by_label("Runs", exact=True).press("Tab")
+    page.locator("#start").press("Enter")
+    page.locator("#progress-words", has_text=re.compile(r"\d{5} of 200000 runs")).wait_for(timeout=60000)
+    page.keyboard.press("Enter")
+    row = page.locator("[data-campaign='sand']")
+    row.get_by_role("button", name="Go on sand").wait_for(timeout=60000)
+    text = row.inner_text()
+    looks.claim("a campaign is stopped by the keyboard", [] if " of 200000" in text else [f"there is {text}"])
+    row.get_by_role("button", name="Go on sand").press("Enter")
+    page.locator("[data-campaign='sand']", has_text="finished").wait_for(timeout=180000)
+    settled(page)
+    page.get_by_role("button", name="Look sand").press("Enter")
+    settled(page)
+    looks.claim("a campaign that goes on has the program's numbers", summary_differs(page, server))
+    looks.claim("the keyboard reaches everything about campaigns", unreached(page))
+    looks.claim("nothing goes wrong about campaigns", flaws)
+    page.context.close()
+
+
 def slide_differs(page):
     """What is wrong with the picture that a key saves."""
     page.evaluate("document.activeElement.blur()")
@@ -417,6 +452,7 @@ def use(looks, browser, server):
     page.context.close()
     use_drive(looks, browser, server)
     use_design(looks, browser, server)
+    use_campaigns(looks, browser, server)
     use_map(looks, browser, server)
 
 

@@ -30,6 +30,7 @@
  * @property {{caption: string, columns: string[], rows: Row[]}[]} [tables]
  * @property {{name: string, meaning: string}[]} [measures]
  * @property {string} [what] is counted
+ * @property {number} [runs] of a campaign
  * @property {number} [done] of it
  * @property {number | null} [all]
  * @property {number} [time_s]

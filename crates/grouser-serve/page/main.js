@@ -2,6 +2,7 @@
 
 import { Asking, ask, list } from "./api.js";
 import { byId, element, save } from "./dom.js";
+import { CampaignAnswer, about as aboutCampaign } from "./campaigns.js";
 import { DesignAnswer, about as aboutDesign } from "./design.js";
 import { Dial } from "./dial.js";
 import { DriveAnswer } from "./drive.js";
@@ -29,6 +30,8 @@ let map;
 let drive;
 /** @type {DesignAnswer | undefined} */
 let design;
+/** @type {CampaignAnswer | undefined} */
+let campaigns;
 /** @type {string[]} */
 let maps = [];
 /** @type {string[]} */
@@ -39,10 +42,10 @@ const MOST_PINNED = 2;
 /** Which parts of the session each view has. */
 const VIEWS = /** @type {Record<string, Part[]>} */ ({
   heading: ["rover", "soil", "belief", "model"], wheel: ["wheel", "soil", "belief", "model"], drive: ["rover", "soil", "model"],
-  map: ["dem", "rover", "soil", "model"], design: ["design", "belief"],
+  map: ["dem", "rover", "soil", "model"], design: ["design", "belief"], campaigns: ["campaign"],
 });
-/** @typedef {"design" | "dem" | "rover" | "soil" | "wheel" | "model" | "belief"} Part */
-const PARTS = /** @type {Part[]} */ (["design", "dem", "rover", "soil", "wheel", "model", "belief"]);
+/** @typedef {"campaign" | "design" | "dem" | "rover" | "soil" | "wheel" | "model" | "belief"} Part */
+const PARTS = /** @type {Part[]} */ (["campaign", "design", "dem", "rover", "soil", "wheel", "model", "belief"]);
 
 const asking = new Asking();
 const [answer, place] = [byId("answer"), byId("sliders")];
@@ -64,7 +67,7 @@ function complain(error) {
 
 /** The answer of the view. */
 function current() {
-  return /** @type {Record<string, typeof wheel | typeof map | typeof drive | typeof design>} */ ({ wheel, map, drive, design })[session.view] ?? cards[0];
+  return /** @type {Record<string, typeof wheel | typeof map | typeof drive | typeof design | typeof campaigns>} */ ({ wheel, map, drive, design, campaigns })[session.view] ?? cards[0];
 }
 
 let waiting = 0;
@@ -138,11 +141,25 @@ function begin() {
   map?.stop();
   drive?.stop();
   design?.stop();
+  campaigns?.stop();
+  const begun = () => announce("computing …");
+  if (session.view === "campaigns") {
+    asking.ask("campaign-task", aboutCampaign({ ...session, runs: 0 }), (line) => {
+      sliders = [];
+      campaigns = new CampaignAnswer(ended, begun);
+      place.replaceChildren(element("h2", {}, ["Start one"]), ...intoFolder(line.runs ?? 0), ...(line.keys ?? []).map(ofKey));
+      answer.replaceChildren(campaigns.element);
+      moved();
+    }, (error) => {
+      if (error) complain(error);
+    });
+    return;
+  }
   if (session.view === "design") {
     asking.ask("design-task", aboutDesign(session), (line) => {
       sliders = [];
       place.replaceChildren(element("h2", {}, ["Move"]), ...(line.keys ?? []).map(ofKey), ...trades(line.measures ?? []));
-      design = new DesignAnswer(ended, () => announce("computing …"));
+      design = new DesignAnswer(ended, begun);
       answer.replaceChildren(design.element);
       moved();
     }, (error) => {
@@ -225,6 +242,22 @@ function trades(measures) {
   return [element("div", { class: "slider trade" }, ["Trade ", selects[0] ?? "", " for ", selects[1] ?? ""])];
 }
 
+/**
+ * How many runs a campaign has, and into which folder they go.
+ * @param {number} usual
+ */
+function intoFolder(usual) {
+  const runs = element("input", { type: "number", id: "campaign.runs", min: 1, value: session.runs || usual, onchange: (/** @type {any} */ event) => {
+    session.runs = Math.max(0, Math.round(event.target.valueAsNumber || 0));
+    toAddress(session, pinned);
+  } });
+  const out = element("input", { type: "text", id: "out", value: session.out, onchange: (/** @type {any} */ event) => {
+    session.out = event.target.value;
+    toAddress(session, pinned);
+  } });
+  return [element("div", { class: "slider" }, [element("label", {}, ["Runs ", runs])]), element("div", { class: "slider" }, [element("label", {}, ["Folder ", out])])];
+}
+
 /** What a run starts with. */
 function run() {
   const slope = ofSession("slope", "slope_deg", "Slope", "°", [0, 40]);
@@ -253,6 +286,7 @@ function said() {
   if (session.view === "wheel") return "the wheel is up to date";
   if (session.view === "drive") return drive?.said() ?? "";
   if (session.view === "design") return design?.said() ?? "";
+  if (session.view === "campaigns") return campaigns?.said() ?? "";
   if (session.view === "map") return map ? saidOf(map) : "";
   const yaw = cards[0]?.yaw();
   const verdict = cards[0]?.row?.["verdict"]?.replace("_", " ") ?? "";
@@ -295,13 +329,10 @@ function showCards() {
 
 /** Saves the last answer as a picture for a slide. */
 async function slide() {
+  const made = session.view === "design" ? design?.slide : session.view === "campaigns" ? campaigns?.slide : undefined;
   const [name, question] = current()?.asking.asked ?? [];
-  if (!name) return;
-  const made = session.view === "design" && design?.slide;
-  if (made) {
-    save(`${name}.svg`, made);
-    return;
-  }
+  if (made) save(`${session.view}.svg`, made);
+  if (made || !name) return;
   announce("computing the slide …");
   const stages = question.stages?.slice(-1);
   const asked = { ...question, ...(stages ? { stages } : {}), slide: true };
@@ -325,7 +356,7 @@ async function choices() {
   offer("dem", maps);
   session.dem ||= maps[0] ?? "";
   areas = paths("areas");
-  for (const kind of ["rover", "soil", "wheel", "design"]) {
+  for (const kind of ["rover", "soil", "wheel", "design", "campaign"]) {
     const select = byId(kind);
     const option = (/** @type {string} */ value, /** @type {string} */ title) =>
       element("option", { value, title }, [value]);
@@ -357,6 +388,7 @@ for (const name of PARTS) {
     // Numbers of one document are none of another.
     const isOther = (/** @type {string} */ key) => !key.startsWith(`${name}.`);
     session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => isOther(key)));
+    if (name === "campaign") session.runs = 0;
     if (name === "dem") session.at = session.from = session.to = "";
     if (name === "model" || name === "belief" || name === "dem") moved();
     else begin();

@@ -28,6 +28,9 @@
  * @property {string} keepout a file of areas
  * @property {string} design
  * @property {string} trade two measures, with a comma between
+ * @property {string} campaign
+ * @property {number} runs of it, 0 for those of its document
+ * @property {string} out its folder
  * @property {Record<string, number>} set keys of documents that have another number
  */
 
@@ -37,6 +40,7 @@ const USUAL = {
   belief: "samples", slope: 10, course: 0, speed: 0.06, load: 17, slip: 0.2, angle: 0,
   yaw: 0, duration: 20, ground: "", dem: "", layer: "verdict", which: "fixed", at: "", from: "", to: "", least: "time", keepout: "",
   design: "design-lighter-wheels", trade: "",
+  campaign: "campaign-wheel-test", runs: 0, out: "campaign",
   set: {},
 };
 

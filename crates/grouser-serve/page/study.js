@@ -21,6 +21,10 @@ export class Study {
     } }, ["Stop"]);
     this.bar = element("progress", { id: "progress", "aria-label": "Progress", hidden: true });
     this.words = element("output", { id: "progress-words" });
+    /** @type {string | undefined} what is counted */
+    this.what = undefined;
+    /** @type {number | null | undefined} how many there are of it */
+    this.all = undefined;
     this.element = element("div", { class: "study", role: "group", "aria-label": "Study" }, [this.button, this.halt, this.bar, this.words]);
   }
 
@@ -38,12 +42,15 @@ export class Study {
       else take(line);
     }, (error) => {
       this.show(false);
+      if (error) this.words.textContent = "";
+      else if (this.all) this.words.textContent = `${this.all} of ${this.all} ${this.what}`;
       end(error);
     });
   }
 
   /** @param {Line} line */
   progress({ what, done = 0, all, time_s: time }) {
+    [this.what, this.all] = [what, all];
     if (all) {
       this.bar.setAttribute("max", String(all));
       this.bar.setAttribute("value", String(done));

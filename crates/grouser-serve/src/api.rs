@@ -1,6 +1,7 @@
 //! What the page, and other programs, may ask. Each question is JSON in the words of documents and
 //! columns; its answer is lines of JSON.
 
+mod campaign;
 mod command;
 mod design;
 mod document;
@@ -27,7 +28,7 @@ pub(crate) type List = fn(&Console) -> String;
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.
-pub(crate) static QUESTIONS: [(&str, Read); 12] = [
+pub(crate) static QUESTIONS: [(&str, Read); 15] = [
     ("heading", heading::read),
     ("heading-map", heading_map::read),
     ("wheel-test", wheel_test::read),
@@ -37,11 +38,18 @@ pub(crate) static QUESTIONS: [(&str, Read); 12] = [
     ("traverse", traverse::read),
     ("design", design::read),
     ("design-task", design::task),
+    ("campaign", campaign::read),
+    ("campaign-task", campaign::task),
+    ("campaign-summary", campaign::summary),
     ("wheel-drawing", drawing::read),
     ("scenario", document::scenario),
     ("stand", document::stand),
 ];
 
 /// What there is to choose from, by their paths below `/api/`.
-pub(crate) static LISTS: [(&str, List); 3] =
-    [("presets", lists::presets), ("documents", lists::documents), ("files", lists::files)];
+pub(crate) static LISTS: [(&str, List); 4] = [
+    ("presets", lists::presets),
+    ("documents", lists::documents),
+    ("files", lists::files),
+    ("campaigns", campaign::list),
+];

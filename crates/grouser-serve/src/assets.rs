@@ -24,7 +24,7 @@ pub(crate) const PAGE: Asset =
     Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
 
 /// Everything that it loads.
-pub(crate) static ASSETS: [Asset; 14] = [
+pub(crate) static ASSETS: [Asset; 15] = [
     asset!("page.css", "text/css; charset=utf-8"),
     asset!("main.js", SCRIPT),
     asset!("api.js", SCRIPT),
@@ -39,6 +39,7 @@ pub(crate) static ASSETS: [Asset; 14] = [
     asset!("map.js", SCRIPT),
     asset!("study.js", SCRIPT),
     asset!("design.js", SCRIPT),
+    asset!("campaigns.js", SCRIPT),
 ];
 
 const SCRIPT: &str = "text/javascript; charset=utf-8";

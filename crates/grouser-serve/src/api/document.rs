@@ -62,10 +62,8 @@ pub(super) fn stand(console: &Console, body: &[u8]) -> Result<Question, Refusal>
 /// The numbers of a study's own document that may be set.
 pub(super) fn study_keys(kind: Kind, document: &Document) -> Vec<Value> {
     let is_own = |path: &&String| {
-        let mut steps = path.split('.');
-        let first = steps.next().unwrap_or_default();
-        !["rover", "soil", "free", "choose", "also"].contains(&first)
-            && steps.all(|step| step.parse::<usize>().is_err())
+        let of_others = ["rover", "soil", "wheel", "free", "choose", "also", "samples"];
+        path.split('.').all(|step| !of_others.contains(&step) && step.parse::<usize>().is_err())
     };
     let one = |path: &String| {
         let value = document.number(path)?;

@@ -79,6 +79,11 @@ impl StudyParts {
         let name = name.ok_or_else(|| {
             Refusal::of_key(key, "it must be a preset, or the path of a document in the folder")
         })?;
+        Self::named(fields, kind, name)
+    }
+
+    /// Those of a document of that name.
+    pub(super) fn named(fields: &AskedFields, kind: Kind, name: String) -> Result<Self, Refusal> {
         let settings = CommonSettings { set: set_of(fields)?, ..CommonSettings::default() };
         Ok(Self { kind, name, settings })
     }

@@ -2,6 +2,7 @@
 
 mod access;
 mod answers;
+mod campaign;
 mod design;
 mod folder;
 mod limits;
