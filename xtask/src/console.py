@@ -19,12 +19,13 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-VIEWS = ("heading", "wheel", "drive", "map", "design", "campaigns")
+VIEWS = ("heading", "wheel", "drive", "map", "design", "campaigns", "fit")
 #: The sessions that views are looked at with, where they show little by themselves.
 SEEN = {
     "map": "view=map&at=10,20&from=-35,-35&to=35,35",
     "design": "view=design&belief=nominal&trade=energy_j_per_m,wheel_mass_kg",
     "campaigns": "view=campaigns&runs=2000&out=looked",
+    "fit": "view=fit&soil=toyoura&belief=nominal&data=tests.csv",
 }
 SIZES = [(1280, 720), (820, 1180)]
 THEMES = ("light", "dark")
@@ -52,6 +53,9 @@ class Server:
         Path(self.place.name, "hostile.toml").write_text(hostile, encoding="utf-8")
         moon = ["terrain", "moon", "--ground", "highlands", "--size-m", "100", "--seed", "3", "--out", "hills.tif"]
         subprocess.run([self.program, *moon], cwd=self.place.name, capture_output=True, check=True)
+        stand = ["wheel-test", "--slip-ratio", "-0.6:0.8:0.2", "--trials", "3", "--noise-n", "0.3", "--format", "csv"]
+        tests = subprocess.run([self.program, *stand], capture_output=True, text=True, check=True)
+        Path(self.place.name, "tests.csv").write_text(tests.stdout, encoding="utf-8")
         self.process = subprocess.Popen(
             [self.program, "serve", ".", "--no-open"], cwd=self.place.name, stdout=subprocess.PIPE, text=True
         )
@@ -369,6 +373,24 @@ def use_campaigns(looks, browser, server):
     page.context.close()
 
 
+def use_fit(looks, browser, server):
+    page, flaws = opened(browser, server, "view=fit&soil=toyoura&data=tests.csv&set.soil.shear.longitudinal_m=0.1")
+    page.locator("#start").press("Enter")
+    page.locator("#progress-words", has_text="posterior").wait_for(timeout=60000)
+    page.keyboard.press("Enter")
+    settled(page)
+    looks.claim("a fit is stopped by the keyboard", [] if page.locator("#start").is_enabled() else ["it goes on"])
+    page.locator("#belief").select_option("nominal")
+    page.locator("#start").press("Enter")
+    settled(page)
+    row = server.run(page.locator("#command").inner_text())["rows"][0]
+    shown = page.locator(".wide [data-column='fit']").first.inner_text()
+    looks.claim("a fit is the program's", [] if shown == four(row["fit"]) else [f"it is {shown}, the program has {row['fit']}"])
+    looks.claim("the keyboard reaches everything about a fit", unreached(page))
+    looks.claim("nothing goes wrong about a fit", flaws)
+    page.context.close()
+
+
 def slide_differs(page):
     """What is wrong with the picture that a key saves."""
     page.evaluate("document.activeElement.blur()")
@@ -453,6 +475,7 @@ def use(looks, browser, server):
     use_drive(looks, browser, server)
     use_design(looks, browser, server)
     use_campaigns(looks, browser, server)
+    use_fit(looks, browser, server)
     use_map(looks, browser, server)
 
 

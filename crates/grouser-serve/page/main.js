@@ -6,6 +6,7 @@ import { CampaignAnswer, about as aboutCampaign } from "./campaigns.js";
 import { DesignAnswer, about as aboutDesign } from "./design.js";
 import { Dial } from "./dial.js";
 import { DriveAnswer } from "./drive.js";
+import { FitAnswer, choicesOfFit } from "./fit.js";
 import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
 import { MapAnswer, offer, saidOf } from "./map.js";
 import { fromAddress, toAddress } from "./session.js";
@@ -32,6 +33,8 @@ let drive;
 let design;
 /** @type {CampaignAnswer | undefined} */
 let campaigns;
+/** @type {FitAnswer | undefined} */
+let fit;
 /** @type {string[]} */
 let maps = [];
 /** @type {string[]} */
@@ -43,9 +46,10 @@ const MOST_PINNED = 2;
 const VIEWS = /** @type {Record<string, Part[]>} */ ({
   heading: ["rover", "soil", "belief", "model"], wheel: ["wheel", "soil", "belief", "model"], drive: ["rover", "soil", "model"],
   map: ["dem", "rover", "soil", "model"], design: ["design", "belief"], campaigns: ["campaign"],
+  fit: ["data", "wheel", "soil", "model", "belief"],
 });
-/** @typedef {"campaign" | "design" | "dem" | "rover" | "soil" | "wheel" | "model" | "belief"} Part */
-const PARTS = /** @type {Part[]} */ (["campaign", "design", "dem", "rover", "soil", "wheel", "model", "belief"]);
+/** @typedef {"data" | "campaign" | "design" | "dem" | "rover" | "soil" | "wheel" | "model" | "belief"} Part */
+const PARTS = /** @type {Part[]} */ (["data", "campaign", "design", "dem", "rover", "soil", "wheel", "model", "belief"]);
 
 const asking = new Asking();
 const [answer, place] = [byId("answer"), byId("sliders")];
@@ -67,7 +71,7 @@ function complain(error) {
 
 /** The answer of the view. */
 function current() {
-  return /** @type {Record<string, typeof wheel | typeof map | typeof drive | typeof design | typeof campaigns>} */ ({ wheel, map, drive, design, campaigns })[session.view] ?? cards[0];
+  return /** @type {Record<string, typeof wheel | typeof map | typeof drive | typeof design | typeof campaigns | typeof fit>} */ ({ wheel, map, drive, design, campaigns, fit })[session.view] ?? cards[0];
 }
 
 let waiting = 0;
@@ -129,7 +133,8 @@ function group(title, inside, isOpen) {
 /** Makes the sliders of the documents that the session names, then asks. */
 function begin() {
   if (!Object.hasOwn(VIEWS, session.view)) session.view = "heading";
-  const [isWheel, isMap, isDrive] = ["wheel", "map", "drive"].map((view) => view === session.view);
+  const [isMap, isDrive, isFit] = ["map", "drive", "fit"].map((view) => view === session.view);
+  const isWheel = isFit || session.view === "wheel";
   for (const view of Object.keys(VIEWS)) {
     const id = `view-${view}`;
     if (view === session.view) byId(id).setAttribute("aria-current", "page");
@@ -142,6 +147,7 @@ function begin() {
   drive?.stop();
   design?.stop();
   campaigns?.stop();
+  fit?.stop();
   const begun = () => announce("computing …");
   if (session.view === "campaigns") {
     asking.ask("campaign-task", aboutCampaign({ ...session, runs: 0 }), (line) => {
@@ -174,7 +180,13 @@ function begin() {
     const of = (/** @type {string} */ kind) => keys.filter((key) => key.key.startsWith(`${kind}.`)).map(ofKey);
     const names = line.names ?? {};
     sliders = [];
-    if (isWheel) {
+    if (isFit) {
+      fit = new FitAnswer(ended, begun);
+      place.replaceChildren(
+        element("h2", {}, ["Fit"]), ...choicesOfFit(session, keys, moved), group(`Start: ${names["soil"]}`, of("soil"), false),
+      );
+      answer.replaceChildren(fit.element);
+    } else if (isWheel) {
       place.replaceChildren(
         element("h2", {}, ["Move"]),
         ofSession("slip", "slip_ratio", "Slip ratio", "", [-0.3, 0.9]),
@@ -287,6 +299,7 @@ function said() {
   if (session.view === "drive") return drive?.said() ?? "";
   if (session.view === "design") return design?.said() ?? "";
   if (session.view === "campaigns") return campaigns?.said() ?? "";
+  if (session.view === "fit") return fit?.said() ?? "";
   if (session.view === "map") return map ? saidOf(map) : "";
   const yaw = cards[0]?.yaw();
   const verdict = cards[0]?.row?.["verdict"]?.replace("_", " ") ?? "";
@@ -329,7 +342,7 @@ function showCards() {
 
 /** Saves the last answer as a picture for a slide. */
 async function slide() {
-  const made = session.view === "design" ? design?.slide : session.view === "campaigns" ? campaigns?.slide : undefined;
+  const made = session.view === "design" ? design?.slide : session.view === "campaigns" ? campaigns?.slide : session.view === "fit" ? fit?.slide : undefined;
   const [name, question] = current()?.asking.asked ?? [];
   if (made) save(`${session.view}.svg`, made);
   if (made || !name) return;
@@ -356,6 +369,9 @@ async function choices() {
   offer("dem", maps);
   session.dem ||= maps[0] ?? "";
   areas = paths("areas");
+  const sets = presets.filter((row) => row["kind"] === "data-set").map((row) => row["name"]);
+  offer("data", [...paths("measurements"), ...sets]);
+  session.data ||= paths("measurements")[0] ?? sets[0] ?? "";
   for (const kind of ["rover", "soil", "wheel", "design", "campaign"]) {
     const select = byId(kind);
     const option = (/** @type {string} */ value, /** @type {string} */ title) =>
@@ -390,7 +406,7 @@ for (const name of PARTS) {
     session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => isOther(key)));
     if (name === "campaign") session.runs = 0;
     if (name === "dem") session.at = session.from = session.to = "";
-    if (name === "model" || name === "belief" || name === "dem") moved();
+    if (["model", "belief", "dem", "data"].includes(name)) moved();
     else begin();
   });
 }

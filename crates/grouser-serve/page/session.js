@@ -31,6 +31,9 @@
  * @property {string} campaign
  * @property {number} runs of it, 0 for those of its document
  * @property {string} out its folder
+ * @property {string} data measured wheel tests
+ * @property {string} fit keys of the soil, with commas between
+ * @property {string} where conditions on rows, with semicolons between
  * @property {Record<string, number>} set keys of documents that have another number
  */
 
@@ -41,6 +44,7 @@ const USUAL = {
   yaw: 0, duration: 20, ground: "", dem: "", layer: "verdict", which: "fixed", at: "", from: "", to: "", least: "time", keepout: "",
   design: "design-lighter-wheels", trade: "",
   campaign: "campaign-wheel-test", runs: 0, out: "campaign",
+  data: "", fit: "soil.shear.longitudinal_m", where: "",
   set: {},
 };
 

@@ -7,6 +7,7 @@ mod design;
 mod document;
 mod drawing;
 mod fields;
+mod fit;
 mod ground;
 mod heading;
 mod heading_map;
@@ -28,7 +29,7 @@ pub(crate) type List = fn(&Console) -> String;
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.
-pub(crate) static QUESTIONS: [(&str, Read); 15] = [
+pub(crate) static QUESTIONS: [(&str, Read); 16] = [
     ("heading", heading::read),
     ("heading-map", heading_map::read),
     ("wheel-test", wheel_test::read),
@@ -41,6 +42,7 @@ pub(crate) static QUESTIONS: [(&str, Read); 15] = [
     ("campaign", campaign::read),
     ("campaign-task", campaign::task),
     ("campaign-summary", campaign::summary),
+    ("fit", fit::read),
     ("wheel-drawing", drawing::read),
     ("scenario", document::scenario),
     ("stand", document::stand),

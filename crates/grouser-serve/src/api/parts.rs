@@ -405,6 +405,11 @@ impl StandParts {
         &self.settings
     }
 
+    /// What the question calls the wheel.
+    pub(super) fn wheel(&self) -> &str {
+        &self.wheel
+    }
+
     /// The stand for each model that is asked for.
     pub(super) fn stands(
         &self,

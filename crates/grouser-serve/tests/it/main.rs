@@ -4,6 +4,7 @@ mod access;
 mod answers;
 mod campaign;
 mod design;
+mod fit;
 mod folder;
 mod limits;
 mod map;
