@@ -275,6 +275,35 @@ def records_differ(page, run, place):
     return flaws
 
 
+def use_mission(looks, page, server):
+    """Drives a mission, another leg of it, and a place that is dragged, and compares each."""
+
+    def legs_differ():
+        settled(page)
+        legs = server.run(page.locator("#command").inner_text())["legs"]
+        ends = [row.locator("[data-column='x_m']").inner_text() for row in page.locator(".wide tbody tr").all()]
+        expected = [four(leg["x_m"]) for leg in legs]
+        return [] if ends == expected else [f"the legs end at x {ends}, the program has {expected}"]
+
+    page.locator("#mission").select_option("switchbacks-15-deg")
+    looks.claim("a mission is the program's", legs_differ())
+    page.get_by_label("Leg 1 goto y_m").fill("0.5")
+    page.get_by_label("Leg 1 goto y_m").press("Tab")
+    looks.claim("a leg that is changed is driven", legs_differ())
+    page.get_by_label("Remove leg 3").press("Enter")
+    flaws = legs_differ()
+    page.locator(".goal").first.scroll_into_view_if_needed()
+    box = page.locator(".goal").first.bounding_box()
+    before = page.get_by_label("Leg 1 goto x_m").input_value()
+    page.mouse.move(box["x"] + 8, box["y"] + 8)
+    page.mouse.down()
+    page.mouse.move(box["x"] - 20, box["y"] + 8, steps=4)
+    page.mouse.up()
+    moved = page.get_by_label("Leg 1 goto x_m").input_value()
+    looks.claim("a place is dragged", flaws + legs_differ() + ([] if moved != before else ["it stays"]))
+    looks.claim("the keyboard reaches everything about a mission", unreached(page))
+
+
 def use_drive(looks, browser, server):
     page, flaws = opened(browser, server, "view=drive")
     looks.claim("a run ends as the program's", ends_differ(page, server))
@@ -296,6 +325,7 @@ def use_drive(looks, browser, server):
     settled(page)
     looks.claim("a run on a map ends as the program's", ends_differ(page, server))
     looks.claim("the keyboard reaches everything about a run", unreached(page))
+    use_mission(looks, page, server)
     looks.claim("nothing goes wrong on the way", flaws)
     page.context.close()
 

@@ -31,6 +31,9 @@
  * @property {{name: string, meaning: string}[]} [measures]
  * @property {string} [what] is counted
  * @property {number} [runs] of a campaign
+ * @property {any[]} [legs] of a mission
+ * @property {any} [run] of a mission
+ * @property {string} [verdict] what the answer says first
  * @property {number} [done] of it
  * @property {number | null} [all]
  * @property {number} [time_s]

@@ -5,10 +5,11 @@ import { byId, element, save } from "./dom.js";
 import { CampaignAnswer, about as aboutCampaign } from "./campaigns.js";
 import { DesignAnswer, about as aboutDesign } from "./design.js";
 import { Dial } from "./dial.js";
-import { DriveAnswer } from "./drive.js";
+import { DriveAnswer, aboutMission } from "./drive.js";
 import { FitAnswer, choicesOfFit } from "./fit.js";
 import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
 import { MapAnswer, offer, saidOf } from "./map.js";
+import { legsTable } from "./legs.js";
 import { fromAddress, toAddress } from "./session.js";
 import { Slider, endsOf } from "./slider.js";
 import { WheelAnswer, about as aboutWheel, labelOf } from "./wheel.js";
@@ -35,6 +36,8 @@ let design;
 let campaigns;
 /** @type {FitAnswer | undefined} */
 let fit;
+/** @type {string[]} */
+let missions = [];
 /** @type {string[]} */
 let maps = [];
 /** @type {string[]} */
@@ -173,6 +176,10 @@ function begin() {
     });
     return;
   }
+  if (isDrive && session.mission) {
+    beginMission();
+    return;
+  }
   const { rover, soil } = session;
   const question = isWheel ? { soil, wheel: aboutWheel(session).wheel } : { rover, soil };
   asking.ask(isWheel ? "stand" : "scenario", question, (line) => {
@@ -254,6 +261,54 @@ function trades(measures) {
   return [element("div", { class: "slider trade" }, ["Trade ", selects[0] ?? "", " for ", selects[1] ?? ""])];
 }
 
+/** What is driven: one heading, or the legs of a mission. */
+function whatIsDriven() {
+  const select = element("select", { id: "mission", onchange: (/** @type {any} */ event) => {
+    session.mission = event.target.value;
+    session.legs = "";
+    session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => !key.startsWith("mission.")));
+    begin();
+    byId("mission")?.focus();
+  } }, ["", ...missions].map((name) => element("option", { value: name, selected: name === session.mission }, [name || "one heading"])));
+  return element("div", { class: "slider" }, [element("label", {}, ["Drive ", select])]);
+}
+
+/** Makes the legs and limits of a mission, then drives it. */
+function beginMission() {
+  for (const part of VIEWS["drive"] ?? []) byId(part).closest("label").hidden = true;
+  asking.ask("mission-task", aboutMission(session), (line) => {
+    sliders = [];
+    const legs = line.legs ?? [];
+    const isLimit = (/** @type {import("./api.js").Key} */ { key }) => key === "mission.slope_deg" || key.startsWith("mission.stop.");
+    const [limits, others] = [(line.keys ?? []).filter(isLimit), (line.keys ?? []).filter((key) => !isLimit(key))];
+    const own = new DriveAnswer(ended);
+    drive = own;
+    const table = element("div");
+    const changed = () => {
+      session.legs = JSON.stringify(legs);
+      own.goals = legs.map((leg) => leg.goto).filter(Boolean);
+      moved();
+    };
+    const shown = () => table.replaceChildren(legsTable(legs, changed, () => {
+      shown();
+      changed();
+    }));
+    shown();
+    own.goals = legs.map((leg) => leg.goto).filter(Boolean);
+    own.dragged = () => {
+      shown();
+      changed();
+    };
+    place.replaceChildren(element("h2", {}, ["Move"]), whatIsDriven(), table, ...limits.map(ofKey), group("Other numbers", others.map(ofKey), false));
+    answer.replaceChildren(own.element);
+    moved();
+  }, (error) => {
+    if (!error) return;
+    complain(error);
+    place.replaceChildren(whatIsDriven());
+  });
+}
+
 /**
  * How many runs a campaign has, and into which folder they go.
  * @param {number} usual
@@ -281,7 +336,7 @@ function run() {
   } }, options.map(([value, text]) => element("option", { value, selected: value === session.ground }, [text])));
   slope.hidden = session.ground !== "";
   return [
-    element("div", { class: "slider" }, [element("label", {}, ["On ", ground])]), slope,
+    whatIsDriven(), element("div", { class: "slider" }, [element("label", {}, ["On ", ground])]), slope,
     ofSession("yaw", "yaw_deg", "Yaw at the start, uphill, on a map from east to the left", "°", [-90, 90]),
     ofSession("duration", "duration_s", "Length of the run", "s", [5, 120]),
   ];
@@ -369,6 +424,7 @@ async function choices() {
   offer("dem", maps);
   session.dem ||= maps[0] ?? "";
   areas = paths("areas");
+  missions = [...documents.filter((row) => row["kind"] === "mission").map((row) => row["path"]), ...presets.filter((row) => row["kind"] === "mission").map((row) => row["name"])];
   const sets = presets.filter((row) => row["kind"] === "data-set").map((row) => row["name"]);
   offer("data", [...paths("measurements"), ...sets]);
   session.data ||= paths("measurements")[0] ?? sets[0] ?? "";

@@ -34,6 +34,8 @@
  * @property {string} data measured wheel tests
  * @property {string} fit keys of the soil, with commas between
  * @property {string} where conditions on rows, with semicolons between
+ * @property {string} mission that is driven, empty for one heading
+ * @property {string} legs of it as JSON, empty for its own
  * @property {Record<string, number>} set keys of documents that have another number
  */
 
@@ -44,7 +46,7 @@ const USUAL = {
   yaw: 0, duration: 20, ground: "", dem: "", layer: "verdict", which: "fixed", at: "", from: "", to: "", least: "time", keepout: "",
   design: "design-lighter-wheels", trade: "",
   campaign: "campaign-wheel-test", runs: 0, out: "campaign",
-  data: "", fit: "soil.shear.longitudinal_m", where: "",
+  mission: "", legs: "", data: "", fit: "soil.shear.longitudinal_m", where: "",
   set: {},
 };
 

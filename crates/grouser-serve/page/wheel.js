@@ -190,6 +190,8 @@ export class WheelAnswer {
 export function labelOf(key) {
   const limit = key.key.match(/\.(\w+)\.at_(least|most)$/);
   if (limit) return `${limit[1]}, at ${limit[2]}`;
+  const stop = key.key.match(/\.stop\.(.+)$/);
+  if (stop) return `Stop: ${stop[1]?.replace(".", " ")}`;
   const meaning = (key.meaning ?? key.key).split(/[,;[]/)[0]?.trim() ?? key.key;
   return meaning === "Its growth with the slip angle" || meaning.startsWith("Its ") ? `${key.key.split(".").slice(1).join(" ")}` : meaning.charAt(0).toLowerCase() + meaning.slice(1);
 }

@@ -13,6 +13,7 @@ mod heading;
 mod heading_map;
 mod lists;
 mod map;
+mod mission;
 mod parts;
 mod place;
 mod route;
@@ -29,7 +30,7 @@ pub(crate) type List = fn(&Console) -> String;
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.
-pub(crate) static QUESTIONS: [(&str, Read); 16] = [
+pub(crate) static QUESTIONS: [(&str, Read); 18] = [
     ("heading", heading::read),
     ("heading-map", heading_map::read),
     ("wheel-test", wheel_test::read),
@@ -43,6 +44,8 @@ pub(crate) static QUESTIONS: [(&str, Read); 16] = [
     ("campaign-task", campaign::task),
     ("campaign-summary", campaign::summary),
     ("fit", fit::read),
+    ("mission", mission::read),
+    ("mission-task", mission::task),
     ("wheel-drawing", drawing::read),
     ("scenario", document::scenario),
     ("stand", document::stand),

@@ -509,13 +509,23 @@ fn text_of(text: &str) -> String {
     json!(text).to_string()
 }
 
+/// An entry of a list as TOML, which may be a table, such as the leg of a mission.
+fn entry_of(key: &str, value: &Value) -> Result<String, Refusal> {
+    let Value::Object(entries) = value else { return toml_of(key, value) };
+    let each = entries.iter().map(|(name, value)| {
+        let value = entry_of(key, value)?;
+        Ok(format!("{} = {value}", text_of(name)))
+    });
+    Ok(format!("{{ {} }}", each.collect::<Result<Vec<_>, Refusal>>()?.join(", ")))
+}
+
 /// A value as TOML.
 fn toml_of(key: &str, value: &Value) -> Result<String, Refusal> {
     match value {
         Value::Bool(_) | Value::Number(_) | Value::String(_) => Ok(value.to_string()),
         Value::Array(all) => {
             let all: Vec<String> =
-                all.iter().map(|value| toml_of(key, value)).collect::<Result<_, _>>()?;
+                all.iter().map(|value| entry_of(key, value)).collect::<Result<_, _>>()?;
             Ok(format!("[{}]", all.join(", ")))
         }
         Value::Object(_) | Value::Null => {

@@ -8,4 +8,5 @@ mod fit;
 mod folder;
 mod limits;
 mod map;
+mod mission;
 mod served;
