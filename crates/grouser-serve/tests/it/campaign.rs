@@ -99,7 +99,7 @@ fn a_campaign_that_was_stopped_goes_on() {
 #[test]
 fn campaigns_stay_in_the_folder() {
     let (outside, server) = served();
-    let mut names = vec!["", "..", "../out", "a/b", ".hidden", "/tmp/out", "a\\b", "ü"];
+    let mut names = vec!["", "..", "../out", "a/b", ".hidden", "/out", "a\\b", "ü"];
     if cfg!(unix) {
         let folder = outside.path().join("folder");
         fs::create_dir_all(outside.path().join("elsewhere")).unwrap();
