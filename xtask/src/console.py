@@ -19,10 +19,11 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-VIEWS = ("heading", "wheel", "drive", "map", "design", "campaigns", "fit")
+VIEWS = ("heading", "wheel", "drive", "mission", "map", "design", "campaigns", "fit")
 #: The sessions that views are looked at with, where they show little by themselves.
 SEEN = {
     "map": "view=map&at=10,20&from=-35,-35&to=35,35",
+    "mission": "view=drive&mission=switchbacks-15-deg",
     "design": "view=design&belief=nominal&trade=energy_j_per_m,wheel_mass_kg",
     "campaigns": "view=campaigns&runs=2000&out=looked",
     "fit": "view=fit&soil=toyoura&belief=nominal&data=tests.csv",
@@ -301,6 +302,11 @@ def use_mission(looks, page, server):
     page.mouse.up()
     moved = page.get_by_label("Leg 1 goto x_m").input_value()
     looks.claim("a place is dragged", flaws + legs_differ() + ([] if moved != before else ["it stays"]))
+    page.locator("#track").focus()
+    for key in ("ArrowLeft", "ArrowLeft", "ArrowUp"):
+        page.keyboard.press(key)
+    legs = page.locator("#legs li").count()
+    looks.claim("arrow keys drive", legs_differ() + ([] if legs == 4 else [f"there are {legs} legs"]))
     looks.claim("the keyboard reaches everything about a mission", unreached(page))
 
 

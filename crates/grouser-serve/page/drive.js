@@ -32,6 +32,11 @@ export function aboutMission({ mission, legs, set }) {
   return { mission, set: { ...setOf({ set }, ["mission"]), ...(legs ? { "mission.leg": JSON.parse(legs) } : {}) } };
 }
 
+/** What the arrow keys add to a mission on its track: a fifth of a metre, or 15° on the spot. */
+const STEPS = /** @type {Record<string, Record<string, number>>} */ ({
+  ArrowUp: { drive_m: 0.2 }, ArrowDown: { drive_m: -0.2 }, ArrowLeft: { turn_deg: 15 }, ArrowRight: { turn_deg: -15 },
+});
+
 /** How long a play of the whole run takes [s]. */
 const PLAY = 10;
 
@@ -55,12 +60,20 @@ export class DriveAnswer {
     this.outcome = element("div", { class: "card" });
     this.now = element("div", { class: "card", id: "now" });
     this.plan = element("figure");
+    this.plan.addEventListener("keydown", (event) => {
+      const leg = STEPS[/** @type {KeyboardEvent} */ (event).key];
+      if (!leg || !this.steered) return;
+      event.preventDefault();
+      this.steered({ ...leg });
+    });
     this.figures = element("div", { class: "figures" });
     this.legs = element("div");
     /** @type {any[]} legs whose places are shown and may be dragged */
     this.goals = [];
     /** @type {() => void} */
     this.dragged = () => {};
+    /** @type {((leg: Record<string, number>) => void) | undefined} takes what the keys of the track add */
+    this.steered = undefined;
     this.names = element("p", { class: "legend", "aria-label": "Wheels" });
     this.out = element("div");
     this.element = element("div", {}, [
@@ -90,6 +103,17 @@ export class DriveAnswer {
       if (line.schema === "grouser.traverse.v1") this.take(line, isPlane);
       else this.out.replaceChildren(exportOf(line, undefined));
     }, (error) => this.answered(error));
+  }
+
+  /**
+   * The track takes the arrow keys from now on.
+   * @param {(leg: Record<string, number>) => void} steered
+   */
+  steer(steered) {
+    this.steered = steered;
+    for (const [name, value] of Object.entries({ tabindex: "0", role: "application", id: "track", "aria-label": "Track, driven by the arrow keys" })) {
+      this.plan.setAttribute(name, value);
+    }
   }
 
   /** @param {Session} session */

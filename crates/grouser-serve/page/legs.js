@@ -13,6 +13,19 @@ const NEW = [
 ];
 
 /**
+ * Adds a leg; one that goes on with the last is made one with it.
+ * @param {Leg[]} legs
+ * @param {Leg} leg of one number
+ */
+export function addLeg(legs, leg) {
+  const [[key, value] = ["", 0]] = Object.entries(leg);
+  const last = legs[legs.length - 1];
+  if (!last || !(key in last)) legs.push(leg);
+  else if (Math.abs(last[key] + value) < 1e-9 && legs.length > 1) legs.pop();
+  else last[key] = Number((last[key] + value).toFixed(6)) || value;
+}
+
+/**
  * Fields of the numbers of a leg, those of its parts too.
  * @param {Leg} leg
  * @param {string} name
@@ -52,6 +65,7 @@ export function legsTable(legs, changed, reordered) {
   ]));
   return element("fieldset", { id: "legs" }, [
     element("legend", {}, ["Legs"]), element("ol", {}, rows),
+    element("p", { class: "setup" }, ["On the track the arrow keys drive: up and down by 0.2 m, left and right turn by 15°."]),
     element("div", { class: "choice" }, ["Add ", ...NEW.map(([text, leg]) => button(text, `Add: ${text.toLowerCase()}`, () => legs.push(structuredClone(leg)), false))]),
   ]);
 }

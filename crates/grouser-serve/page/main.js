@@ -9,7 +9,7 @@ import { DriveAnswer, aboutMission } from "./drive.js";
 import { FitAnswer, choicesOfFit } from "./fit.js";
 import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
 import { MapAnswer, offer, saidOf } from "./map.js";
-import { legsTable } from "./legs.js";
+import { addLeg, legsTable } from "./legs.js";
 import { fromAddress, toAddress } from "./session.js";
 import { Slider, endsOf } from "./slider.js";
 import { WheelAnswer, about as aboutWheel, labelOf } from "./wheel.js";
@@ -295,6 +295,11 @@ function beginMission() {
     }));
     shown();
     own.goals = legs.map((leg) => leg.goto).filter(Boolean);
+    own.steer((leg) => {
+      addLeg(legs, leg);
+      shown();
+      changed();
+    });
     own.dragged = () => {
       shown();
       changed();

@@ -5,8 +5,8 @@
 //! (403) and whether it has the token (401), `routes` whether there is such a path (404) and method
 //! (405), and for a question whether its `Origin` is ours (403) and its body small (413) and quick
 //! (408) JSON. `connection` bounds connections and what they take, `answering` and
-//! `runs` computations, `folder`
-//! the files that may be opened; `maps` keeps what was computed of maps. `api` makes questions of JSON; `page/` has the page.
+//! `runs` computations, `folder` the files that may be opened; `maps` keeps what was computed of
+//! maps, `progress` says how far a study is. `api` makes questions of JSON; `page/` has the page.
 //!
 //! It is made on `hyper` itself. What a router and layers of middleware would add are a dozen
 //! paths and one order of checks, which is best read as one function; and the limits of
