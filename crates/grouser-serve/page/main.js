@@ -402,10 +402,15 @@ function showCards() {
 
 /** Saves the last answer as a picture for a slide. */
 async function slide() {
-  const made = session.view === "design" ? design?.slide : session.view === "campaigns" ? campaigns?.slide : session.view === "fit" ? fit?.slide : undefined;
+  // Studies take long: theirs came with the answer.
+  const study = /** @type {Record<string, typeof design | typeof campaigns | typeof fit>} */ ({ design, campaigns, fit })[session.view];
+  if (study) {
+    if (study.slide) save(`${session.view}.svg`, study.slide);
+    else announce("this answer has no picture for a slide");
+    return;
+  }
   const [name, question] = current()?.asking.asked ?? [];
-  if (made) save(`${session.view}.svg`, made);
-  if (made || !name) return;
+  if (!name) return;
   announce("computing the slide …");
   const stages = question.stages?.slice(-1);
   const asked = { ...question, ...(stages ? { stages } : {}), slide: true };
