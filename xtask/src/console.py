@@ -7,6 +7,7 @@ compares the page with what the program prints for the command under the answer.
 pictures it writes one of each view. The last line has the counts.
 """
 
+import html
 import json
 import math
 import re
@@ -18,9 +19,17 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-VIEWS = ("heading", "wheel", "drive", "map")
+VIEWS = ("heading", "wheel", "drive", "mission", "map", "design", "campaigns", "fit")
 #: The sessions that views are looked at with, where they show little by themselves.
-SEEN = {"map": "view=map&at=10,20&from=-35,-35&to=35,35"}
+SEEN = {
+    "map": "view=map&at=10,20&from=-35,-35&to=35,35",
+    "mission": "view=drive&mission=switchbacks-15-deg",
+    "design": "view=design&belief=nominal",
+    "campaigns": "view=campaigns&runs=2000&out=looked",
+    "fit": "view=fit&soil=toyoura&belief=nominal&data=tests.csv",
+}
+#: What the first look at a view has besides, which takes long, and without which there is no picture.
+PICTURED = {"design": "&trade=energy_j_per_m,wheel_mass_kg"}
 SIZES = [(1280, 720), (820, 1180)]
 THEMES = ("light", "dark")
 IMPACTS = ("serious", "critical")
@@ -47,6 +56,9 @@ class Server:
         Path(self.place.name, "hostile.toml").write_text(hostile, encoding="utf-8")
         moon = ["terrain", "moon", "--ground", "highlands", "--size-m", "100", "--seed", "3", "--out", "hills.tif"]
         subprocess.run([self.program, *moon], cwd=self.place.name, capture_output=True, check=True)
+        stand = ["wheel-test", "--slip-ratio", "-0.6:0.8:0.2", "--trials", "3", "--noise-n", "0.3", "--format", "csv"]
+        tests = subprocess.run([self.program, *stand], capture_output=True, text=True, check=True)
+        Path(self.place.name, "tests.csv").write_text(tests.stdout, encoding="utf-8")
         self.process = subprocess.Popen(
             [self.program, "serve", ".", "--no-open"], cwd=self.place.name, stdout=subprocess.PIPE, text=True
         )
@@ -98,6 +110,15 @@ def opened(browser, server, fragment="", size=SIZES[0], theme="light", bypass=Fa
     )
     page.goto(f"{server.address}#{fragment}")
     settled(page)
+    return page, flaws
+
+
+def started(browser, server, fragment, *how, **more):
+    """The same, where a study that starts by hand has its answer."""
+    page, flaws = opened(browser, server, fragment, *how, **more)
+    if page.locator("#start").count():
+        page.locator("#start").click()
+        settled(page)
     return page, flaws
 
 
@@ -257,6 +278,40 @@ def records_differ(page, run, place):
     return flaws
 
 
+def use_mission(looks, page, server):
+    """Drives a mission, another leg of it, and a place that is dragged, and compares each."""
+
+    def legs_differ():
+        settled(page)
+        legs = server.run(page.locator("#command").inner_text())["legs"]
+        ends = [row.locator("[data-column='x_m']").inner_text() for row in page.locator(".wide tbody tr").all()]
+        expected = [four(leg["x_m"]) for leg in legs]
+        return [] if ends == expected else [f"the legs end at x {ends}, the program has {expected}"]
+
+    page.locator("#mission").select_option("switchbacks-15-deg")
+    looks.claim("a mission is the program's", legs_differ())
+    page.get_by_label("Leg 1 goto y_m").fill("0.5")
+    page.get_by_label("Leg 1 goto y_m").press("Tab")
+    looks.claim("a leg that is changed is driven", legs_differ())
+    page.get_by_label("Remove leg 3").press("Enter")
+    flaws = legs_differ()
+    page.locator(".goal").first.scroll_into_view_if_needed()
+    box = page.locator(".goal").first.bounding_box()
+    before = page.get_by_label("Leg 1 goto x_m").input_value()
+    page.mouse.move(box["x"] + 8, box["y"] + 8)
+    page.mouse.down()
+    page.mouse.move(box["x"] - 20, box["y"] + 8, steps=4)
+    page.mouse.up()
+    moved = page.get_by_label("Leg 1 goto x_m").input_value()
+    looks.claim("a place is dragged", flaws + legs_differ() + ([] if moved != before else ["it stays"]))
+    page.locator("#track").focus()
+    for key in ("ArrowLeft", "ArrowLeft", "ArrowUp"):
+        page.keyboard.press(key)
+    legs = page.locator("#legs li").count()
+    looks.claim("arrow keys drive", legs_differ() + ([] if legs == 4 else [f"there are {legs} legs"]))
+    looks.claim("the keyboard reaches everything about a mission", unreached(page))
+
+
 def use_drive(looks, browser, server):
     page, flaws = opened(browser, server, "view=drive")
     looks.claim("a run ends as the program's", ends_differ(page, server))
@@ -278,23 +333,133 @@ def use_drive(looks, browser, server):
     settled(page)
     looks.claim("a run on a map ends as the program's", ends_differ(page, server))
     looks.claim("the keyboard reaches everything about a run", unreached(page))
+    use_mission(looks, page, server)
     looks.claim("nothing goes wrong on the way", flaws)
     page.context.close()
+
+
+def design_differs(page, server):
+    """Where the limits and the designs have other numbers than the program's."""
+    found = server.run(page.locator("#command").inner_text())
+    flaws = []
+    for at, rows in enumerate([found["constraints"], found["designs"]]):
+        lines = page.locator(".wide table").nth(at).locator("tbody tr")
+        if lines.count() != len(rows):
+            flaws.append(f"there are {lines.count()} rows, the program has {len(rows)}")
+            continue
+        for place, row in enumerate(rows):
+            for cell in lines.nth(place).locator("td").all():
+                column = cell.get_attribute("data-column")
+                own = four(row[column]) if isinstance(row[column], (int, float)) else str(row[column])
+                if cell.inner_text() != own:
+                    flaws.append(f"{column} is {cell.inner_text()}, the program has {own}")
+    return flaws
+
+
+def use_design(looks, browser, server):
+    page, flaws = opened(browser, server, "view=design&belief=nominal")
+    page.get_by_role("spinbutton", name=re.compile("limit_slope_deg, at least", re.IGNORECASE)).fill("20")
+    settled(page)
+    page.locator("#start").press("Enter")
+    settled(page)
+    looks.claim("a design is the program's", design_differs(page, server))
+    page.locator("#belief").select_option("samples")
+    page.locator("#design").select_option("design-climbing-wheels")
+    settled(page)
+    page.locator("#start").press("Enter")
+    page.locator("#progress-words", has_text="measured").wait_for(timeout=60000)
+    page.keyboard.press("Enter")
+    settled(page)
+    is_over = page.locator("#progress").is_hidden() and page.locator("#start").is_enabled()
+    looks.claim("a search is stopped by the keyboard", [] if is_over else ["it goes on"])
+    looks.claim("the keyboard reaches everything about a design", unreached(page))
+    looks.claim("nothing goes wrong about a design", flaws)
+    page.context.close()
+
+
+def summary_differs(page, server):
+    """Where the means have other numbers than the program's."""
+    rows = server.run(page.locator("#command").inner_text())["rows"]
+    lines = page.locator(".wide table").nth(1).locator("tbody tr")
+    flaws = [] if lines.count() == len(rows) else [f"there are {lines.count()} rows, the program has {len(rows)}"]
+    for place, row in enumerate(rows):
+        mean = lines.nth(place).locator("[data-column='mean']").inner_text()
+        if mean not in (four(row["mean"]), "-"):
+            flaws.append(f"the mean of {row['quantity']} is {mean}, the program has {row['mean']}")
+    return flaws
+
+
+def use_campaigns(looks, browser, server):
+    page, flaws = opened(browser, server, "view=campaigns&out=sand")
+    page.get_by_label("Runs", exact=True).fill("60000")
+    page.get_by_label("Runs", exact=True).press("Tab")
+    page.locator("#start").press("Enter")
+    page.locator("#progress-words", has_text=re.compile(r"\d{5} of 60000 runs")).wait_for(timeout=60000)
+    page.keyboard.press("Enter")
+    row = page.locator("[data-campaign='sand']")
+    row.get_by_role("button", name="Go on sand").wait_for(timeout=60000)
+    text = row.inner_text()
+    looks.claim("a campaign is stopped by the keyboard", [] if " of 60000" in text else [f"there is {text}"])
+    row.get_by_role("button", name="Go on sand").press("Enter")
+    page.locator("[data-campaign='sand']", has_text="finished").wait_for(timeout=180000)
+    settled(page)
+    page.get_by_role("button", name="Look sand").press("Enter")
+    settled(page)
+    looks.claim("a campaign that goes on has the program's numbers", summary_differs(page, server))
+    looks.claim("the keyboard reaches everything about campaigns", unreached(page))
+    looks.claim("nothing goes wrong about campaigns", flaws)
+    page.context.close()
+
+
+def use_fit(looks, browser, server):
+    page, flaws = opened(browser, server, "view=fit&soil=toyoura&data=tests.csv&set.soil.shear.longitudinal_m=0.1")
+    page.locator("#start").press("Enter")
+    page.locator("#progress-words", has_text="posterior").wait_for(timeout=60000)
+    page.keyboard.press("Enter")
+    settled(page)
+    looks.claim("a fit is stopped by the keyboard", [] if page.locator("#start").is_enabled() else ["it goes on"])
+    page.locator("#belief").select_option("nominal")
+    page.locator("#start").press("Enter")
+    settled(page)
+    row = server.run(page.locator("#command").inner_text())["rows"][0]
+    shown = page.locator(".wide [data-column='fit']").first.inner_text()
+    looks.claim("a fit is the program's", [] if shown == four(row["fit"]) else [f"it is {shown}, the program has {row['fit']}"])
+    looks.claim("the keyboard reaches everything about a fit", unreached(page))
+    looks.claim("nothing goes wrong about a fit", flaws)
+    page.context.close()
+
+
+def slide_differs(page):
+    """What is wrong with the picture that a key saves."""
+    page.evaluate("document.activeElement.blur()")
+    with page.expect_download(timeout=60000) as saved:
+        page.keyboard.press("i")
+    svg = Path(saved.value.path()).read_text(encoding="utf-8")
+    settled(page)
+    command = page.locator("#command").inner_text()
+    flaws = [] if re.search(r'width="320mm" height="180mm"|viewBox="0 0 320 180"', svg) else ["it is not 16 to 9"]
+    # A long command has several lines.
+    words = html.unescape(" ".join(re.findall(r"<text[^>]*>([^<]*)</text>", svg)))
+    return flaws + ([] if command in words else [f"it has {words}, and not {command}"])
 
 
 def look_at_views(looks, browser, server, axe, pictures):
     for view in VIEWS:
         for size in SIZES:
             for theme in THEMES:
-                page, flaws = opened(browser, server, SEEN.get(view, f"view={view}"), size, theme)
+                is_first = (size, theme) == (SIZES[0], "light")
+                fragment = SEEN.get(view, f"view={view}") + (PICTURED.get(view, "") if is_first else "")
+                page, flaws = started(browser, server, fragment, size, theme)
                 if page.evaluate("document.documentElement.scrollWidth > document.documentElement.clientWidth"):
                     flaws.append("wider than the window")
                 if "token" in page.url:
                     flaws.append("the address keeps the token")
-                if pictures and (size, theme) == (SIZES[0], "light"):
+                if is_first:
+                    looks.claim(f"a key saves a slide of {view}", slide_differs(page))
+                if pictures and is_first:
                     page.screenshot(path=str(Path(pictures, f"{view}.png")))
                 page.context.close()
-                page, _ = opened(browser, server, SEEN.get(view, f"view={view}"), size, theme, bypass=True)
+                page, _ = started(browser, server, SEEN.get(view, f"view={view}"), size, theme, bypass=True)
                 page.evaluate(axe)
                 flaws += page.evaluate(AXE, list(IMPACTS))
                 page.context.close()
@@ -348,6 +513,9 @@ def use(looks, browser, server):
     looks.claim("the keyboard reaches everything about a wheel", unreached(page))
     page.context.close()
     use_drive(looks, browser, server)
+    use_design(looks, browser, server)
+    use_campaigns(looks, browser, server)
+    use_fit(looks, browser, server)
     use_map(looks, browser, server)
 
 

@@ -11,8 +11,13 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, ensure};
 
 use crate::libtest::Count;
-use crate::tools::{self, CHROMIUM};
+use crate::tools::{self, CHROMIUM, NPM};
 use crate::{python, workspace};
+
+/// What checks types that comments declare: where from is for npm's own settings to say.
+const TYPESCRIPT: &str = "typescript@5.9.3";
+/// What it is to check, and how strictly.
+const TYPED: &str = "crates/grouser-serve/jsconfig.json";
 
 /// What uses the console, in the same language.
 const USER: &str = include_str!("console.py");
@@ -74,14 +79,16 @@ const REPORTS: [(&str, &[&str]); 9] = [
 /// Looks at the site in `target/site`, and at reports made for it, and counts pages; without a
 /// browser all count as skipped.
 pub(crate) fn check() -> Result<Count> {
+    let mut count = typed()?;
     let Some(browser) = tools::browser() else {
         println!("{}", CHROMIUM.missing());
-        return Ok(Count::skipped());
+        count += Count::skipped();
+        return Ok(count);
     };
     let python = python::environment()?;
     let site = workspace::target().join("site");
     ensure!(site.join("index.html").is_file(), "there is no site: cargo xtask site");
-    let mut count = looked_at(&python, browser, &site, &PAGES)?;
+    count += looked_at(&python, browser, &site, &PAGES)?;
     let (folder, pages) = reports()?;
     count += looked_at(&python, browser, &folder, &pages)?;
     count += used(&python, browser, None)?;
@@ -93,11 +100,33 @@ pub(crate) fn check() -> Result<Count> {
 ///
 /// * `pictures`: the folder that a picture of each view is written into
 pub(crate) fn console(pictures: Option<&Path>) -> Result<Count> {
-    let Some(browser) = tools::browser() else {
+    let mut count = typed()?;
+    count += if let Some(browser) = tools::browser() {
+        used(&python::environment()?, browser, pictures)?
+    } else {
         println!("{}", CHROMIUM.missing());
-        return Ok(Count::skipped());
+        Count::skipped()
     };
-    used(&python::environment()?, browser, pictures)
+    Ok(count)
+}
+
+/// Checks the types of the console's scripts, which is one check; without npm it is skipped.
+fn typed() -> Result<Count> {
+    if !NPM.is_here() {
+        println!("{}", NPM.missing());
+        return Ok(Count::skipped());
+    }
+    let folder = workspace::target().join("npm");
+    fs::create_dir_all(&folder)?;
+    let mut install = Command::new("npm");
+    install.args(["install", "--no-save", "--no-audit", "--no-fund", "--silent", TYPESCRIPT]);
+    let done = install.arg("--prefix").arg(&folder).status().context("npm did not start")?;
+    ensure!(done.success(), "npm cannot install {TYPESCRIPT}");
+    let mut check = Command::new(folder.join("node_modules/.bin/tsc"));
+    check.args(["--pretty", "false", "--project"]).arg(workspace::root().join(TYPED));
+    let count = Count::one(check.status().context("tsc did not start")?.success());
+    println!("types of the console's scripts: {count}");
+    Ok(count)
 }
 
 fn used(python: &Path, browser: &str, pictures: Option<&Path>) -> Result<Count> {

@@ -21,7 +21,7 @@ pub(crate) struct SystemTool {
 }
 
 /// All of them.
-const ALL: [SystemTool; 3] = [VALGRIND, RENDERER, CHROMIUM];
+const ALL: [SystemTool; 4] = [VALGRIND, RENDERER, CHROMIUM, NPM];
 
 /// What counts instructions.
 pub(crate) const VALGRIND: SystemTool = SystemTool {
@@ -51,6 +51,14 @@ pub(crate) const CHROMIUM: SystemTool = SystemTool {
     packages: &["chromium", "fonts-dejavu-core"],
     checks: "the looks at pages in a browser",
     found: || browser().is_some(),
+};
+
+/// What installs the checker of types of scripts.
+pub(crate) const NPM: SystemTool = SystemTool {
+    name: "npm",
+    packages: &["npm"],
+    checks: "the types of the console's scripts",
+    found: || runs("npm", &["--version"]),
 };
 
 /// The program of that browser; some systems name it otherwise.

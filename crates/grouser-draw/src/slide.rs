@@ -1,7 +1,10 @@
 //! An answer for a slide: one sentence, one picture, and in small print what it is of.
 
+use grouser_io::answer::{Answer, PageBlock};
 use grouser_io::escape;
+use grouser_io::reading;
 
+use crate::chart::Drawable;
 use crate::sheet::{Face, Sheet, Text, wrap};
 use crate::style::{Ground, Role};
 
@@ -29,6 +32,38 @@ pub struct Slide<'s> {
 }
 
 impl Slide<'_> {
+    /// The slide of an answer on a sheet.
+    ///
+    /// * `says`: of it the first sentence is taken
+    /// * `whose`: rover and soil
+    /// * `command`: gives the answer again
+    #[must_use]
+    pub fn of_answer(says: &str, picture: &Sheet, whose: &str, command: String) -> Sheet {
+        let small_print = [format!("{whose}; grouser {}", env!("CARGO_PKG_VERSION")), command];
+        let sentence = reading::sentence(first_sentence(says));
+        Slide { sentence: &sentence, picture, small_print: &small_print }.sheet()
+    }
+
+    /// What an answer that has a page says first.
+    #[must_use]
+    pub fn sentence_of(answer: &Answer) -> &str {
+        let verdict = answer.blocks().find_map(|block| match block {
+            PageBlock::Verdict(text) => Some(text.as_str()),
+            _ => None,
+        });
+        verdict.unwrap_or(&answer.title)
+    }
+
+    /// The first figure of an answer that has a page.
+    #[must_use]
+    pub fn picture_of(answer: &Answer) -> Option<Sheet> {
+        answer.blocks().find_map(|block| match block {
+            PageBlock::Figure { figure, .. } => Some(figure.sheet()),
+            PageBlock::Charts(charts) => charts.first().map(Drawable::sheet),
+            _ => None,
+        })
+    }
+
     /// The slide on a sheet.
     #[must_use]
     pub fn sheet(&self) -> Sheet {
@@ -59,6 +94,13 @@ impl Slide<'_> {
         sheet.place(self.picture, [left, top + 3.0], scale);
         sheet
     }
+}
+
+/// The first of several sentences: a full stop before a space and a capital ends it.
+fn first_sentence(text: &str) -> &str {
+    let begins = |rest: &str| rest.chars().next().is_some_and(char::is_uppercase);
+    let end = text.match_indices(". ").find(|(at, stop)| begins(&text[at + stop.len()..]));
+    end.map_or(text, |(at, _)| &text[..at])
 }
 
 /// The sentence in lines, with the height of their letters.
@@ -95,6 +137,12 @@ mod tests {
         for text in ["Go.", "inside", "a rover on sand", "grouser heading"] {
             assert!(svg.contains(&format!(">{text}</text>")), "{text}");
         }
+    }
+
+    #[test]
+    fn the_first_sentence_ends_before_a_capital() {
+        assert_eq!(first_sentence("go 4.2 % of 9 cells. A heading holds."), "go 4.2 % of 9 cells");
+        assert_eq!(first_sentence("at x 2. m after 3 s."), "at x 2. m after 3 s.");
     }
 
     #[test]

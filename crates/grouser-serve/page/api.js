@@ -26,6 +26,17 @@
  * @property {{name: string, label: string, about: string}[]} [layers]
  * @property {Record<string, number[]>} [frame] where the ground lies on a drawing
  * @property {string[]} [notes]
+ * @property {string} [slide] as SVG
+ * @property {{caption: string, columns: string[], rows: Row[]}[]} [tables]
+ * @property {{name: string, meaning: string}[]} [measures]
+ * @property {string} [what] is counted
+ * @property {number} [runs] of a campaign
+ * @property {any[]} [legs] of a mission
+ * @property {any} [run] of a mission
+ * @property {string} [verdict] what the answer says first
+ * @property {number} [done] of it
+ * @property {number | null} [all]
+ * @property {number} [time_s]
  * @property {Record<string, string>} [files]
  */
 
@@ -34,12 +45,12 @@
  * @typedef {object} Key
  * @property {string} key
  * @property {number} value
- * @property {number} minimum
- * @property {number} maximum
+ * @property {number | null} minimum
+ * @property {number | null} maximum
  * @property {string | null} unit
  * @property {string | null} meaning
- * @property {boolean} is_uncertain
- * @property {boolean} is_assumed
+ * @property {boolean} [is_uncertain]
+ * @property {boolean} [is_assumed]
  */
 
 /** What the engine says is wrong, and with which key. */
@@ -103,6 +114,8 @@ export class Asking {
   constructor() {
     /** @type {AbortController | undefined} */
     this.running = undefined;
+    /** @type {[string, any] | undefined} the last question, with its name */
+    this.asked = undefined;
   }
 
   /**
@@ -113,6 +126,7 @@ export class Asking {
    */
   async ask(name, question, take, end) {
     this.running?.abort();
+    this.asked = [name, question];
     const own = new AbortController();
     this.running = own;
     const isCurrent = () => this.running === own;

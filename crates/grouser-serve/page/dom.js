@@ -50,6 +50,41 @@ export function four(value) {
 }
 
 /**
+ * A cell of a table: numbers with four digits.
+ * @param {any} value
+ */
+function cell(value) {
+  return typeof value === "number" || value === null || value === undefined ? four(value) : Array.isArray(value) ? value.join(", ") : String(value);
+}
+
+/**
+ * Rows as a table, each column with its name.
+ * @param {string} caption
+ * @param {string[]} columns
+ * @param {Record<string, any>[]} rows
+ */
+export function tableOf(caption, columns, rows) {
+  const side = (/** @type {string} */ name) => typeof rows[0]?.[name] === "string" ? { class: "text" } : {};
+  return element("div", { class: "wide", tabindex: 0, role: "group", "aria-label": caption }, [element("table", {}, [
+    element("caption", {}, [caption]),
+    element("thead", {}, [element("tr", {}, columns.map((name) => element("th", { scope: "col", ...side(name) }, [name])))]),
+    element("tbody", {}, rows.map((row) => element("tr", {}, columns.map((name) => element("td", { "data-column": name, ...side(name) }, [cell(row[name])]))))),
+  ])]);
+}
+
+/**
+ * The engine's pictures. As images they can run nothing, whatever is written in them.
+ * @param {{caption: string, svg: string}[]} all
+ */
+export function picturesOf(all) {
+  return all.map(({ caption, svg: content }) => {
+    const image = element("img", { src: URL.createObjectURL(new Blob([content], { type: "image/svg+xml" })), alt: caption });
+    image.addEventListener("load", () => URL.revokeObjectURL(image.getAttribute("src") ?? ""));
+    return element("figure", {}, [image, element("figcaption", {}, [caption])]);
+  });
+}
+
+/**
  * Offers a text as a file.
  * @param {string} name
  * @param {string} content

@@ -3,8 +3,9 @@
 
 import { Asking } from "./api.js";
 import { PATTERNS, drawOver } from "./chart.js";
-import { element, four, svg } from "./dom.js";
+import { element, four, svg, tableOf } from "./dom.js";
 import { about as aboutRover, exportOf } from "./heading.js";
+import { setOf } from "./session.js";
 
 /** @typedef {import("./session.js").Session} Session */
 /** @typedef {import("./api.js").Line} Line */
@@ -22,6 +23,19 @@ const OF_ROVER = /** @type {[string, string][]} */ ([
   ["forward_speed_m_s", "forward speed [m/s]"], ["lateral_speed_m_s", "lateral speed [m/s]"],
   ["roll_deg", "roll [°]"], ["pitch_deg", "pitch [°]"], ["power_w", "power [W]"], ["energy_j", "work of the wheels [J]"],
 ]);
+
+/**
+ * What is asked of a mission, whatever the question.
+ * @param {Session} session
+ */
+export function aboutMission({ mission, legs, set }) {
+  return { mission, set: { ...setOf({ set }, ["mission"]), ...(legs ? { "mission.leg": JSON.parse(legs) } : {}) } };
+}
+
+/** What the arrow keys add to a mission on its track: a fifth of a metre, or 15° on the spot. */
+const STEPS = /** @type {Record<string, Record<string, number>>} */ ({
+  ArrowUp: { drive_m: 0.2 }, ArrowDown: { drive_m: -0.2 }, ArrowLeft: { turn_deg: 15 }, ArrowRight: { turn_deg: -15 },
+});
 
 /** How long a play of the whole run takes [s]. */
 const PLAY = 10;
@@ -46,13 +60,26 @@ export class DriveAnswer {
     this.outcome = element("div", { class: "card" });
     this.now = element("div", { class: "card", id: "now" });
     this.plan = element("figure");
+    this.plan.addEventListener("keydown", (event) => {
+      const leg = STEPS[/** @type {KeyboardEvent} */ (event).key];
+      if (!leg || !this.steered) return;
+      event.preventDefault();
+      this.steered({ ...leg });
+    });
     this.figures = element("div", { class: "figures" });
+    this.legs = element("div");
+    /** @type {any[]} legs whose places are shown and may be dragged */
+    this.goals = [];
+    /** @type {() => void} */
+    this.dragged = () => {};
+    /** @type {((leg: Record<string, number>) => void) | undefined} takes what the keys of the track add */
+    this.steered = undefined;
     this.names = element("p", { class: "legend", "aria-label": "Wheels" });
     this.out = element("div");
     this.element = element("div", {}, [
       element("div", { class: "timeline", role: "group", "aria-label": "Time line" }, [this.button, this.time, this.clock]),
       element("div", { class: "figures" }, [element("div", { class: "beside" }, [this.outcome, this.now]), this.plan]),
-      this.names, this.figures, this.out,
+      this.legs, this.names, this.figures, this.out,
     ]);
     this.timer = 0;
   }
@@ -61,6 +88,10 @@ export class DriveAnswer {
   ask(session) {
     this.pause();
     this.outcome.classList.add("stale");
+    if (session.mission) {
+      this.askMission(session);
+      return;
+    }
     const isPlane = session.ground === "";
     const about = aboutRover(session);
     const question = {
@@ -71,15 +102,45 @@ export class DriveAnswer {
     this.asking.ask("traverse", question, (line) => {
       if (line.schema === "grouser.traverse.v1") this.take(line, isPlane);
       else this.out.replaceChildren(exportOf(line, undefined));
-    }, (error) => {
-      this.outcome.classList.remove("stale");
-      if (error) {
-        this.run = undefined;
-        this.outcome.replaceChildren(element("p", { class: "number" }, ["–"]), element("p", { class: "error" }, [error.message]));
-        for (const old of [this.now, this.plan, this.figures, this.names, this.out]) old.replaceChildren();
+    }, (error) => this.answered(error));
+  }
+
+  /**
+   * The track takes the arrow keys from now on.
+   * @param {(leg: Record<string, number>) => void} steered
+   */
+  steer(steered) {
+    this.steered = steered;
+    for (const [name, value] of Object.entries({ tabindex: "0", role: "application", id: "track", "aria-label": "Track, driven by the arrow keys" })) {
+      this.plan.setAttribute(name, value);
+    }
+  }
+
+  /** @param {Session} session */
+  askMission(session) {
+    /** @type {any} */
+    let mission;
+    this.asking.ask("mission", { ...aboutMission(session), shown: true, figures: true }, (line) => {
+      if (line.schema !== "grouser.shown.v1") {
+        mission = line;
+        return;
       }
-      this.ended(error);
-    });
+      const first = mission.alternatives?.[0] ?? mission;
+      this.take({ ...line.run, outcome: first.outcome, reason: line.verdict }, line.run.samples[0].z_m === undefined);
+      this.legs.replaceChildren(...(line.tables ?? []).map(({ caption, columns, rows }) => tableOf(caption, columns, rows)));
+      this.out.replaceChildren(exportOf(line, undefined));
+    }, (error) => this.answered(error));
+  }
+
+  /** @param {Error | undefined} error */
+  answered(error) {
+    this.outcome.classList.remove("stale");
+    if (error) {
+      this.run = undefined;
+      this.outcome.replaceChildren(element("p", { class: "number" }, ["–"]), element("p", { class: "error" }, [error.message]));
+      for (const old of [this.now, this.plan, this.legs, this.figures, this.names, this.out]) old.replaceChildren();
+    }
+    this.ended(error);
   }
 
   stop() {
@@ -138,7 +199,11 @@ export class DriveAnswer {
   drawPlan(samples, isPlane) {
     const [width, height, edge] = [420, 400, 44];
     const ends = (/** @type {string} */ of) => [Math.min(...samples.map((it) => it[of])), Math.max(...samples.map((it) => it[of]))];
-    const [[west = 0, east = 0], [south = 0, north = 0]] = [ends("x_m"), ends("y_m")];
+    let [[west = 0, east = 0], [south = 0, north = 0]] = [ends("x_m"), ends("y_m")];
+    for (const { x_m: atX, y_m: atY } of this.goals) {
+      [west, east] = [Math.min(west, samples[0].x_m + atX), Math.max(east, samples[0].x_m + atX)];
+      [south, north] = [Math.min(south, samples[0].y_m + atY), Math.max(north, samples[0].y_m + atY)];
+    }
     const scale = Math.min((width - 2 * edge) / Math.max(east - west, 0.1), (height - 2 * edge) / Math.max(north - south, 0.1));
     const x = (/** @type {number} */ at) => width / 2 + (at - (west + east) / 2) * scale;
     const y = (/** @type {number} */ at) => height / 2 - (at - (south + north) / 2) * scale;
@@ -160,8 +225,38 @@ export class DriveAnswer {
       svg("text", { x: 16, y: height - 56 }, [up]),
       svg("text", { x: 58, y: height - 12 }, [isPlane ? "x, along the contour" : "x, east"]),
       ...this.bar(scale, width, height),
+      ...this.goals.map((goal) => this.handle(goal, first, [x, y], scale, [width, height])),
     ]));
     this.pose = (it) => rover.setAttribute("transform", `translate(${x(it["x_m"])} ${y(it["y_m"])}) rotate(${-it["yaw_deg"]})`);
+  }
+
+  /**
+   * A place that a leg leads to, which may be dragged; its fields are among the legs.
+   * @param {{x_m: number, y_m: number}} goal seen from the start
+   * @param {any} first
+   * @param {((at: number) => number)[]} places on the drawing
+   * @param {number} scale
+   * @param {number[]} size
+   */
+  handle(goal, first, [x, y], scale, [width = 1, height = 1]) {
+    const made = svg("circle", { class: "goal", r: 8, cx: x?.(first.x_m + goal.x_m) ?? 0, cy: y?.(first.y_m + goal.y_m) ?? 0 });
+    let last = [0, 0];
+    made.addEventListener("pointerdown", (/** @type {any} */ event) => {
+      made.setPointerCapture(event.pointerId);
+      last = [event.clientX, event.clientY];
+    });
+    made.addEventListener("pointermove", (/** @type {any} */ event) => {
+      if (!made.hasPointerCapture(event.pointerId)) return;
+      const box = /** @type {any} */ (made).ownerSVGElement.getBoundingClientRect();
+      const [zoomX, zoomY] = [width / box.width, height / box.height];
+      goal.x_m = Number((goal.x_m + (event.clientX - (last[0] ?? 0)) * zoomX / scale).toFixed(3));
+      goal.y_m = Number((goal.y_m - (event.clientY - (last[1] ?? 0)) * zoomY / scale).toFixed(3));
+      last = [event.clientX, event.clientY];
+      made.setAttribute("cx", String(x?.(first.x_m + goal.x_m)));
+      made.setAttribute("cy", String(y?.(first.y_m + goal.y_m)));
+    });
+    made.addEventListener("pointerup", () => this.dragged());
+    return made;
   }
 
   /**

@@ -226,6 +226,7 @@ export function exportOf(shown, card) {
   for (const [name, content] of Object.entries(shown?.documents ?? {})) {
     parts.push(" ", element("button", { type: "button", onclick: () => save(name, content) }, [`Save ${name}`]));
   }
+  if (shown) parts.push(" ", element("button", { type: "button", id: "slide", title: "A picture for a slide, 16 to 9, with one sentence" }, ["Save a slide (i)"]));
   const assumptions = shown?.assumptions ?? [];
   if (assumptions.length) {
     parts.push(element("details", {}, [

@@ -1,11 +1,15 @@
 // The page: the session, its sliders, and the view that is asked for.
 
-import { Asking, list } from "./api.js";
-import { byId, element } from "./dom.js";
+import { Asking, ask, list } from "./api.js";
+import { byId, element, save } from "./dom.js";
+import { CampaignAnswer, about as aboutCampaign } from "./campaigns.js";
+import { DesignAnswer, about as aboutDesign } from "./design.js";
 import { Dial } from "./dial.js";
-import { DriveAnswer } from "./drive.js";
+import { DriveAnswer, aboutMission } from "./drive.js";
+import { FitAnswer, choicesOfFit } from "./fit.js";
 import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
 import { MapAnswer, offer, saidOf } from "./map.js";
+import { addLeg, legsTable } from "./legs.js";
 import { fromAddress, toAddress } from "./session.js";
 import { Slider, endsOf } from "./slider.js";
 import { WheelAnswer, about as aboutWheel, labelOf } from "./wheel.js";
@@ -26,6 +30,14 @@ let wheel;
 let map;
 /** @type {DriveAnswer | undefined} */
 let drive;
+/** @type {DesignAnswer | undefined} */
+let design;
+/** @type {CampaignAnswer | undefined} */
+let campaigns;
+/** @type {FitAnswer | undefined} */
+let fit;
+/** @type {string[]} */
+let missions = [];
 /** @type {string[]} */
 let maps = [];
 /** @type {string[]} */
@@ -33,7 +45,14 @@ let areas = [];
 /** Keys that the sliders do not have: what of a scenario makes no difference to a heading. */
 const GRAVITY = "scenario.gravity_m_s2";
 const MOST_PINNED = 2;
-const VIEWS = ["heading", "wheel", "drive", "map"];
+/** Which parts of the session each view has. */
+const VIEWS = /** @type {Record<string, Part[]>} */ ({
+  heading: ["rover", "soil", "belief", "model"], wheel: ["wheel", "soil", "belief", "model"], drive: ["rover", "soil", "model"],
+  map: ["dem", "rover", "soil", "model"], design: ["design", "belief"], campaigns: ["campaign"],
+  fit: ["data", "wheel", "soil", "model", "belief"],
+});
+/** @typedef {"data" | "campaign" | "design" | "dem" | "rover" | "soil" | "wheel" | "model" | "belief"} Part */
+const PARTS = /** @type {Part[]} */ (["data", "campaign", "design", "dem", "rover", "soil", "wheel", "model", "belief"]);
 
 const asking = new Asking();
 const [answer, place] = [byId("answer"), byId("sliders")];
@@ -49,8 +68,13 @@ function complain(error) {
   }
   const field = key && byId(key);
   byId("session-error").textContent = error && !isPlaced ? error.message : "";
-  for (const name of ["dem", "rover", "soil", "wheel", "model"]) byId(name).removeAttribute("aria-invalid");
+  for (const name of PARTS) byId(name).removeAttribute("aria-invalid");
   if (error && field instanceof HTMLSelectElement) field.setAttribute("aria-invalid", "true");
+}
+
+/** The answer of the view. */
+function current() {
+  return /** @type {Record<string, typeof wheel | typeof map | typeof drive | typeof design | typeof campaigns | typeof fit>} */ ({ wheel, map, drive, design, campaigns, fit })[session.view] ?? cards[0];
 }
 
 let waiting = 0;
@@ -61,10 +85,7 @@ function moved() {
   if (waiting) return;
   waiting = requestAnimationFrame(() => {
     waiting = 0;
-    if (session.view === "wheel") wheel?.ask(session);
-    else if (session.view === "map") map?.ask(session);
-    else if (session.view === "drive") drive?.ask(session);
-    else cards[0]?.ask();
+    current()?.ask(session);
   });
 }
 
@@ -114,19 +135,51 @@ function group(title, inside, isOpen) {
 
 /** Makes the sliders of the documents that the session names, then asks. */
 function begin() {
-  if (!VIEWS.includes(session.view)) session.view = "heading";
-  const [isWheel, isMap, isDrive] = ["wheel", "map", "drive"].map((view) => view === session.view);
-  for (const view of VIEWS) {
+  if (!Object.hasOwn(VIEWS, session.view)) session.view = "heading";
+  const [isMap, isDrive, isFit] = ["map", "drive", "fit"].map((view) => view === session.view);
+  const isWheel = isFit || session.view === "wheel";
+  for (const view of Object.keys(VIEWS)) {
     const id = `view-${view}`;
     if (view === session.view) byId(id).setAttribute("aria-current", "page");
     else byId(id).removeAttribute("aria-current");
   }
-  const isHidden = /** @type {Record<string, boolean>} */ ({ dem: !isMap, rover: isWheel, wheel: !isWheel, belief: isMap || isDrive });
-  for (const [id, is] of Object.entries(isHidden)) byId(id).closest("label").hidden = is;
+  for (const part of PARTS) byId(part).closest("label").hidden = !VIEWS[session.view]?.includes(part);
   cards.forEach((card) => card.stop());
   wheel?.stop();
   map?.stop();
   drive?.stop();
+  design?.stop();
+  campaigns?.stop();
+  fit?.stop();
+  const begun = () => announce("computing …");
+  if (session.view === "campaigns") {
+    asking.ask("campaign-task", aboutCampaign({ ...session, runs: 0 }), (line) => {
+      sliders = [];
+      campaigns = new CampaignAnswer(ended, begun);
+      place.replaceChildren(element("h2", {}, ["Start one"]), ...intoFolder(line.runs ?? 0), ...(line.keys ?? []).map(ofKey));
+      answer.replaceChildren(campaigns.element);
+      moved();
+    }, (error) => {
+      if (error) complain(error);
+    });
+    return;
+  }
+  if (session.view === "design") {
+    asking.ask("design-task", aboutDesign(session), (line) => {
+      sliders = [];
+      place.replaceChildren(element("h2", {}, ["Move"]), ...(line.keys ?? []).map(ofKey), ...trades(line.measures ?? []));
+      design = new DesignAnswer(ended, begun);
+      answer.replaceChildren(design.element);
+      moved();
+    }, (error) => {
+      if (error) complain(error);
+    });
+    return;
+  }
+  if (isDrive && session.mission) {
+    beginMission();
+    return;
+  }
   const { rover, soil } = session;
   const question = isWheel ? { soil, wheel: aboutWheel(session).wheel } : { rover, soil };
   asking.ask(isWheel ? "stand" : "scenario", question, (line) => {
@@ -134,7 +187,13 @@ function begin() {
     const of = (/** @type {string} */ kind) => keys.filter((key) => key.key.startsWith(`${kind}.`)).map(ofKey);
     const names = line.names ?? {};
     sliders = [];
-    if (isWheel) {
+    if (isFit) {
+      fit = new FitAnswer(ended, begun);
+      place.replaceChildren(
+        element("h2", {}, ["Fit"]), ...choicesOfFit(session, keys, moved), group(`Start: ${names["soil"]}`, of("soil"), false),
+      );
+      answer.replaceChildren(fit.element);
+    } else if (isWheel) {
       place.replaceChildren(
         element("h2", {}, ["Move"]),
         ofSession("slip", "slip_ratio", "Slip ratio", "", [-0.3, 0.9]),
@@ -187,6 +246,90 @@ function courses() {
   return [element("div", { class: "slider" }, [element("label", {}, ["Course ", which])]), dial.element];
 }
 
+/**
+ * Two measures that a design trades for one another, or none.
+ * @param {{name: string, meaning: string}[]} measures
+ */
+function trades(measures) {
+  const chosen = session.trade.split(",");
+  const select = (/** @type {number} */ at) => element("select", { "aria-label": at ? "Trade for" : "Trade", onchange: () => {
+    const [one, other] = selects.map((it) => /** @type {any} */ (it).value);
+    session.trade = one && other && one !== other ? `${one},${other}` : "";
+    moved();
+  } }, ["", ...measures.map((it) => it.name)].map((name) => element("option", { value: name, selected: name === (chosen[at] ?? "") }, [name || "nothing"])));
+  const selects = [select(0), select(1)];
+  return [element("div", { class: "slider trade" }, ["Trade ", selects[0] ?? "", " for ", selects[1] ?? ""])];
+}
+
+/** What is driven: one heading, or the legs of a mission. */
+function whatIsDriven() {
+  const select = element("select", { id: "mission", onchange: (/** @type {any} */ event) => {
+    session.mission = event.target.value;
+    session.legs = "";
+    session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => !key.startsWith("mission.")));
+    begin();
+    byId("mission")?.focus();
+  } }, ["", ...missions].map((name) => element("option", { value: name, selected: name === session.mission }, [name || "one heading"])));
+  return element("div", { class: "slider" }, [element("label", {}, ["Drive ", select])]);
+}
+
+/** Makes the legs and limits of a mission, then drives it. */
+function beginMission() {
+  for (const part of VIEWS["drive"] ?? []) byId(part).closest("label").hidden = true;
+  asking.ask("mission-task", aboutMission(session), (line) => {
+    sliders = [];
+    const legs = line.legs ?? [];
+    const isLimit = (/** @type {import("./api.js").Key} */ { key }) => key === "mission.slope_deg" || key.startsWith("mission.stop.");
+    const [limits, others] = [(line.keys ?? []).filter(isLimit), (line.keys ?? []).filter((key) => !isLimit(key))];
+    const own = new DriveAnswer(ended);
+    drive = own;
+    const table = element("div");
+    const changed = () => {
+      session.legs = JSON.stringify(legs);
+      own.goals = legs.map((leg) => leg.goto).filter(Boolean);
+      moved();
+    };
+    const shown = () => table.replaceChildren(legsTable(legs, changed, () => {
+      shown();
+      changed();
+    }));
+    shown();
+    own.goals = legs.map((leg) => leg.goto).filter(Boolean);
+    own.steer((leg) => {
+      addLeg(legs, leg);
+      shown();
+      changed();
+    });
+    own.dragged = () => {
+      shown();
+      changed();
+    };
+    place.replaceChildren(element("h2", {}, ["Move"]), whatIsDriven(), table, ...limits.map(ofKey), group("Other numbers", others.map(ofKey), false));
+    answer.replaceChildren(own.element);
+    moved();
+  }, (error) => {
+    if (!error) return;
+    complain(error);
+    place.replaceChildren(whatIsDriven());
+  });
+}
+
+/**
+ * How many runs a campaign has, and into which folder they go.
+ * @param {number} usual
+ */
+function intoFolder(usual) {
+  const runs = element("input", { type: "number", id: "campaign.runs", min: 1, value: session.runs || usual, onchange: (/** @type {any} */ event) => {
+    session.runs = Math.max(0, Math.round(event.target.valueAsNumber || 0));
+    toAddress(session, pinned);
+  } });
+  const out = element("input", { type: "text", id: "out", value: session.out, onchange: (/** @type {any} */ event) => {
+    session.out = event.target.value;
+    toAddress(session, pinned);
+  } });
+  return [element("div", { class: "slider" }, [element("label", {}, ["Runs ", runs])]), element("div", { class: "slider" }, [element("label", {}, ["Folder ", out])])];
+}
+
 /** What a run starts with. */
 function run() {
   const slope = ofSession("slope", "slope_deg", "Slope", "°", [0, 40]);
@@ -198,7 +341,7 @@ function run() {
   } }, options.map(([value, text]) => element("option", { value, selected: value === session.ground }, [text])));
   slope.hidden = session.ground !== "";
   return [
-    element("div", { class: "slider" }, [element("label", {}, ["On ", ground])]), slope,
+    whatIsDriven(), element("div", { class: "slider" }, [element("label", {}, ["On ", ground])]), slope,
     ofSession("yaw", "yaw_deg", "Yaw at the start, uphill, on a map from east to the left", "°", [-90, 90]),
     ofSession("duration", "duration_s", "Length of the run", "s", [5, 120]),
   ];
@@ -214,6 +357,9 @@ function ended(error) {
 function said() {
   if (session.view === "wheel") return "the wheel is up to date";
   if (session.view === "drive") return drive?.said() ?? "";
+  if (session.view === "design") return design?.said() ?? "";
+  if (session.view === "campaigns") return campaigns?.said() ?? "";
+  if (session.view === "fit") return fit?.said() ?? "";
   if (session.view === "map") return map ? saidOf(map) : "";
   const yaw = cards[0]?.yaw();
   const verdict = cards[0]?.row?.["verdict"]?.replace("_", " ") ?? "";
@@ -254,6 +400,26 @@ function showCards() {
   others.forEach((card) => card.ask());
 }
 
+/** Saves the last answer as a picture for a slide. */
+async function slide() {
+  // Studies take long: theirs came with the answer.
+  const study = /** @type {Record<string, typeof design | typeof campaigns | typeof fit>} */ ({ design, campaigns, fit })[session.view];
+  if (study) {
+    if (study.slide) save(`${session.view}.svg`, study.slide);
+    else announce("this answer has no picture for a slide");
+    return;
+  }
+  const [name, question] = current()?.asking.asked ?? [];
+  if (!name) return;
+  announce("computing the slide …");
+  const stages = question.stages?.slice(-1);
+  const asked = { ...question, ...(stages ? { stages } : {}), slide: true };
+  const error = await ask(name, asked, new AbortController().signal, (line) => {
+    if (line.slide) save(`${name}.svg`, line.slide);
+  }).catch((problem) => problem);
+  ended(error);
+}
+
 /** @param {string} view */
 function show(view) {
   session.view = view;
@@ -268,7 +434,11 @@ async function choices() {
   offer("dem", maps);
   session.dem ||= maps[0] ?? "";
   areas = paths("areas");
-  for (const kind of ["rover", "soil", "wheel"]) {
+  missions = [...documents.filter((row) => row["kind"] === "mission").map((row) => row["path"]), ...presets.filter((row) => row["kind"] === "mission").map((row) => row["name"])];
+  const sets = presets.filter((row) => row["kind"] === "data-set").map((row) => row["name"]);
+  offer("data", [...paths("measurements"), ...sets]);
+  session.data ||= paths("measurements")[0] ?? sets[0] ?? "";
+  for (const kind of ["rover", "soil", "wheel", "design", "campaign"]) {
     const select = byId(kind);
     const option = (/** @type {string} */ value, /** @type {string} */ title) =>
       element("option", { value, title }, [value]);
@@ -284,7 +454,7 @@ async function choices() {
 
 /** Shows in the session line what the session has. */
 function reflect() {
-  for (const name of /** @type {const} */ (["dem", "rover", "soil", "wheel", "model", "belief"])) {
+  for (const name of PARTS) {
     const select = /** @type {HTMLSelectElement} */ (byId(name));
     const value = session[name];
     if (value && ![...select.options].some((option) => option.value === value)) {
@@ -294,14 +464,15 @@ function reflect() {
   }
 }
 
-for (const name of /** @type {const} */ (["dem", "rover", "soil", "wheel", "model", "belief"])) {
+for (const name of PARTS) {
   byId(name).addEventListener("change", (/** @type {any} */ event) => {
     session[name] = event.target.value;
     // Numbers of one document are none of another.
     const isOther = (/** @type {string} */ key) => !key.startsWith(`${name}.`);
     session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => isOther(key)));
+    if (name === "campaign") session.runs = 0;
     if (name === "dem") session.at = session.from = session.to = "";
-    if (name === "model" || name === "belief" || name === "dem") moved();
+    if (["model", "belief", "dem", "data"].includes(name)) moved();
     else begin();
   });
 }
@@ -312,7 +483,7 @@ byId("skip").addEventListener("click", (/** @type {Event} */ event) => {
   answer.focus();
   answer.scrollIntoView();
 });
-for (const view of VIEWS) byId(`view-${view}`).addEventListener("click", () => show(view));
+for (const view of Object.keys(VIEWS)) byId(`view-${view}`).addEventListener("click", () => show(view));
 addEventListener("hashchange", () => {
   ({ own: session, pinned } = fromAddress());
   reflect();
@@ -320,7 +491,11 @@ addEventListener("hashchange", () => {
 });
 addEventListener("keydown", (event) => {
   const isTyping = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
-  if (event.key === "p" && !isTyping && !event.ctrlKey && !event.metaKey && !event.altKey) byId("pin")?.click();
+  const button = { p: "pin", i: "slide" }[event.key];
+  if (button && !isTyping && !event.ctrlKey && !event.metaKey && !event.altKey) byId(button)?.click();
+});
+answer.addEventListener("click", (/** @type {any} */ event) => {
+  if (event.target.closest("#slide")) slide();
 });
 
 byId("busy").setAttribute("aria-live", "polite");

@@ -26,6 +26,16 @@
  * @property {string} to its goal
  * @property {string} least what the way has least of
  * @property {string} keepout a file of areas
+ * @property {string} design
+ * @property {string} trade two measures, with a comma between
+ * @property {string} campaign
+ * @property {number} runs of it, 0 for those of its document
+ * @property {string} out its folder
+ * @property {string} data measured wheel tests
+ * @property {string} fit keys of the soil, with commas between
+ * @property {string} where conditions on rows, with semicolons between
+ * @property {string} mission that is driven, empty for one heading
+ * @property {string} legs of it as JSON, empty for its own
  * @property {Record<string, number>} set keys of documents that have another number
  */
 
@@ -34,6 +44,9 @@ const USUAL = {
   view: "heading", rover: "hakuto", soil: "toyoura-uncertain", wheel: "hakuto", model: "",
   belief: "samples", slope: 10, course: 0, speed: 0.06, load: 17, slip: 0.2, angle: 0,
   yaw: 0, duration: 20, ground: "", dem: "", layer: "verdict", which: "fixed", at: "", from: "", to: "", least: "time", keepout: "",
+  design: "design-lighter-wheels", trade: "",
+  campaign: "campaign-wheel-test", runs: 0, out: "campaign",
+  mission: "", legs: "", data: "", fit: "soil.shear.longitudinal_m", where: "",
   set: {},
 };
 
@@ -90,7 +103,7 @@ export function toAddress(own, pinned) {
 
 /**
  * The numbers that are set in documents of some kinds.
- * @param {Session} session
+ * @param {{set: Record<string, number>}} session
  * @param {string[]} kinds
  */
 export function setOf(session, kinds) {

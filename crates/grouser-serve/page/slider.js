@@ -87,7 +87,8 @@ export class Slider {
  * Where a slider of a document's number begins and ends: around the number, within what it may be.
  * @param {import("./api.js").Key} key
  */
-export function endsOf({ value, minimum, maximum, unit }) {
+export function endsOf({ value, minimum: least, maximum: most, unit }) {
+  const [minimum, maximum] = [least ?? Math.min(0, 4 * value), most ?? Math.max(1, 4 * value)];
   if (unit === "°" && maximum - minimum <= 120) return { low: minimum, high: maximum };
   if (maximum - minimum <= 5) return { low: minimum, high: maximum };
   if (value > 0) return { low: Math.max(minimum, value / 4), high: Math.min(maximum, value * 4) };

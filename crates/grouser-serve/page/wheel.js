@@ -2,7 +2,7 @@
 
 import { Asking } from "./api.js";
 import { draw } from "./chart.js";
-import { element, four } from "./dom.js";
+import { element, four, picturesOf } from "./dom.js";
 import { exportOf, stagesOf } from "./heading.js";
 import { setOf } from "./session.js";
 
@@ -64,8 +64,6 @@ export class WheelAnswer {
     this.element = element("div", {}, [
       this.figures, this.export,
     ]);
-    /** @type {string[]} */
-    this.pictures = [];
   }
 
   /** @param {Session} session */
@@ -152,21 +150,12 @@ export class WheelAnswer {
   }
 
   /**
-   * The engine's drawings. As images they can run nothing, whatever is written in them.
+   * The engine's drawings.
    * @param {Line} line
    */
   picture(line) {
-    const old = this.pictures;
-    this.pictures = [];
-    this.drawings = (line.drawings ?? []).map(({ caption, svg }) => {
-      const url = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
-      this.pictures.push(url);
-      return element("figure", {}, [
-        element("img", { src: url, alt: caption }), element("figcaption", {}, [caption]),
-      ]);
-    });
+    this.drawings = picturesOf(line.drawings ?? []);
     this.arrange();
-    old.forEach((url) => URL.revokeObjectURL(url));
   }
 
   /**
@@ -199,6 +188,10 @@ export class WheelAnswer {
  * @param {Key} key
  */
 export function labelOf(key) {
+  const limit = key.key.match(/\.(\w+)\.at_(least|most)$/);
+  if (limit) return `${limit[1]}, at ${limit[2]}`;
+  const stop = key.key.match(/\.stop\.(.+)$/);
+  if (stop) return `Stop: ${stop[1]?.replace(".", " ")}`;
   const meaning = (key.meaning ?? key.key).split(/[,;[]/)[0]?.trim() ?? key.key;
   return meaning === "Its growth with the slip angle" || meaning.startsWith("Its ") ? `${key.key.split(".").slice(1).join(" ")}` : meaning.charAt(0).toLowerCase() + meaning.slice(1);
 }

@@ -1,7 +1,7 @@
 //! A question that is answered: read, computed on a thread of its own, and sent line by line.
 
-use std::cell::Cell;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use bytes::Bytes;
 use grouser::document::guard::guarded;
@@ -34,13 +34,13 @@ pub(crate) async fn answer(
     let console = Arc::clone(console);
     let held = Arc::clone(&place);
     drop(tokio::task::spawn_blocking(move || {
-        let (has_begun, is_full) = (Cell::new(false), Cell::new(false));
+        let (has_begun, is_full) = (AtomicBool::new(false), AtomicBool::new(false));
         let sent = |line: String| {
             let has_room = line.len() <= console.limits.answer_bytes as usize;
             let room = if has_room { go_on.room(line.len()) } else { None };
-            is_full.set(room.is_none());
+            is_full.store(room.is_none(), Ordering::Relaxed);
             room.is_some() && {
-                has_begun.set(true);
+                has_begun.store(true, Ordering::Relaxed);
                 send.blocking_send(((line + "\n").into(), room)).is_ok()
             }
         };
@@ -59,9 +59,9 @@ pub(crate) async fn answer(
             Err(Refusal::new(StatusCode::SERVICE_UNAVAILABLE, message))
         };
         // What fails before the first line is the answer; after some it is the last line.
-        match if is_full.get() { full() } else { computed } {
+        match if is_full.load(Ordering::Relaxed) { full() } else { computed } {
             Ok(()) => {}
-            Err(refusal) if has_begun.get() => {
+            Err(refusal) if has_begun.load(Ordering::Relaxed) => {
                 let line = json::line(&refusal.to_json()) + "\n";
                 drop(send.blocking_send((line.into(), None)));
             }

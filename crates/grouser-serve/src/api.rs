@@ -1,15 +1,19 @@
 //! What the page, and other programs, may ask. Each question is JSON in the words of documents and
 //! columns; its answer is lines of JSON.
 
+mod campaign;
 mod command;
+mod design;
 mod document;
 mod drawing;
 mod fields;
+mod fit;
 mod ground;
 mod heading;
 mod heading_map;
 mod lists;
 mod map;
+mod mission;
 mod parts;
 mod place;
 mod route;
@@ -26,7 +30,7 @@ pub(crate) type List = fn(&Console) -> String;
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.
-pub(crate) static QUESTIONS: [(&str, Read); 10] = [
+pub(crate) static QUESTIONS: [(&str, Read); 18] = [
     ("heading", heading::read),
     ("heading-map", heading_map::read),
     ("wheel-test", wheel_test::read),
@@ -34,11 +38,23 @@ pub(crate) static QUESTIONS: [(&str, Read); 10] = [
     ("map-place", place::read),
     ("route", route::read),
     ("traverse", traverse::read),
+    ("design", design::read),
+    ("design-task", design::task),
+    ("campaign", campaign::read),
+    ("campaign-task", campaign::task),
+    ("campaign-summary", campaign::summary),
+    ("fit", fit::read),
+    ("mission", mission::read),
+    ("mission-task", mission::task),
     ("wheel-drawing", drawing::read),
     ("scenario", document::scenario),
     ("stand", document::stand),
 ];
 
 /// What there is to choose from, by their paths below `/api/`.
-pub(crate) static LISTS: [(&str, List); 3] =
-    [("presets", lists::presets), ("documents", lists::documents), ("files", lists::files)];
+pub(crate) static LISTS: [(&str, List); 4] = [
+    ("presets", lists::presets),
+    ("documents", lists::documents),
+    ("files", lists::files),
+    ("campaigns", campaign::list),
+];

@@ -7,8 +7,8 @@ use crate::runs::GoOn;
 /// Reads a question.
 pub(crate) type Read = fn(&Console, &[u8]) -> Result<Question, Refusal>;
 
-/// Takes a line; whether somebody reads it.
-pub(crate) type Send<'a> = &'a dyn Fn(String) -> bool;
+/// Takes a line, from any thread; whether somebody reads it.
+pub(crate) type Send<'a> = &'a (dyn Fn(String) -> bool + Sync);
 
 /// A question.
 pub(crate) struct Question(Box<Answering>);

@@ -24,7 +24,7 @@ pub(crate) const PAGE: Asset =
     Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
 
 /// Everything that it loads.
-pub(crate) static ASSETS: [Asset; 12] = [
+pub(crate) static ASSETS: [Asset; 17] = [
     asset!("page.css", "text/css; charset=utf-8"),
     asset!("main.js", SCRIPT),
     asset!("api.js", SCRIPT),
@@ -37,6 +37,11 @@ pub(crate) static ASSETS: [Asset; 12] = [
     asset!("dial.js", SCRIPT),
     asset!("drive.js", SCRIPT),
     asset!("map.js", SCRIPT),
+    asset!("study.js", SCRIPT),
+    asset!("design.js", SCRIPT),
+    asset!("campaigns.js", SCRIPT),
+    asset!("fit.js", SCRIPT),
+    asset!("legs.js", SCRIPT),
 ];
 
 const SCRIPT: &str = "text/javascript; charset=utf-8";

@@ -22,15 +22,20 @@ pub(crate) struct Listed {
 /// A file of the folder that is no document.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ListedFile {
-    /// `map` or `areas`.
+    /// `map`, `areas` or `measurements`.
     pub(crate) kind: &'static str,
     /// Its path in the folder.
     pub(crate) path: String,
 }
 
 /// Ends of names, and what such files have.
-const ENDINGS: [(&str, &str); 4] =
-    [("tif", "map"), ("tiff", "map"), ("xyz", "map"), ("geojson", "areas")];
+const ENDINGS: [(&str, &str); 5] = [
+    ("tif", "map"),
+    ("tiff", "map"),
+    ("xyz", "map"),
+    ("geojson", "areas"),
+    ("csv", "measurements"),
+];
 
 /// Levels of folders that are listed.
 const DEEPEST: usize = 3;

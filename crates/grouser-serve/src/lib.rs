@@ -6,8 +6,8 @@
 //! (405), and for a question whether its `Origin` is ours (403) and its body small (413) and quick
 //! (408) JSON. `connection` bounds connections and what they take, `answering` and
 //! `runs` computations and the memory of their answers, `folder` the files that may be opened; `maps`
-//! keeps what was computed of maps. `browser_page` leads a browser here. `api` makes questions of
-//! JSON; `page/` has the page.
+//! keeps what was computed of maps, `progress` says how far a study is. `browser_page` leads a browser
+//! here. `api` makes questions of JSON; `page/` has the page.
 //!
 //! It is made on `hyper` itself. What a router and layers of middleware would add are a dozen
 //! paths and one order of checks, which is best read as one function; and the limits of
@@ -35,6 +35,7 @@ mod folder;
 mod kept;
 mod limits;
 mod maps;
+mod progress;
 mod refusal;
 mod routes;
 mod runs;

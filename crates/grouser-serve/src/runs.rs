@@ -42,6 +42,8 @@ pub(crate) struct GoOn {
     lines: Arc<Semaphore>,
 }
 
+/// Time of a study, whose progress somebody watches.
+const STUDY: Duration = Duration::from_secs(12 * 3600);
 /// How often it is looked whether it is somebody's turn.
 const LOOK: Duration = Duration::from_millis(2);
 /// Questions that are read at a time: a map may take some dozen megabytes until it is read.
@@ -98,6 +100,11 @@ impl Drop for Waiter {
 }
 
 impl GoOn {
+    /// The same for a study that shows its progress: it ends with who watches it, or the server.
+    pub(crate) fn of_study(&self) -> Self {
+        Self { until: self.until + STUDY, ..self.clone() }
+    }
+
     /// Whether to go on.
     pub(crate) fn is_on(&self) -> bool {
         !self.has_gone.load(Ordering::Relaxed)

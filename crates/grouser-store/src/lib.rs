@@ -10,7 +10,8 @@
 //!
 //! [`Study`] is a campaign as the store sees it, [`shard`] turns rows into a file's bytes and back,
 //! [`Folder`] is the folder that a campaign writes, [`Results`] the same for reading, [`merge`]
-//! brings the parts of an array of jobs together.
+//! brings the parts of an array of jobs together, [`compute`] has all computed that is missing, and
+//! [`Statistics`] has the library's statistics of all that is there.
 //!
 //! Shards are computed one by one, in any order, anywhere: [`shard_bytes`] makes one,
 //! [`Folder::missing`] lists the missing ones, [`Folder::accept`] takes them in. A file appears
@@ -20,7 +21,9 @@
 //! the [`digest`](Folder::finish) over all of them is that of the campaign, however it was
 //! computed.
 
+mod compute;
 mod error;
+mod figures;
 mod folder;
 mod identity;
 mod manifest;
@@ -30,6 +33,7 @@ mod place;
 mod results;
 pub mod shard;
 mod shards;
+mod statistics;
 mod study;
 mod time;
 
@@ -38,7 +42,9 @@ mod damage;
 #[cfg(test)]
 mod tests;
 
+pub use compute::compute;
 pub use error::{ShardFault, StoreError};
+pub use figures::{Figure, figures};
 pub use folder::Folder;
 pub use identity::ColumnRecord;
 pub use manifest::{Manifest, Session};
@@ -46,6 +52,9 @@ pub use merge::merge;
 pub use part::Part;
 pub use results::{Finished, Results};
 pub use shards::ShardSet;
+pub use statistics::{
+    ConvergenceRecord, Curve, ProbabilityRecord, SensitivityRecord, Statistics, Table,
+};
 pub use study::{Study, difference, sha256};
 
 use grouser::document::campaign::Campaign;

@@ -3,7 +3,7 @@
 mod of_model;
 mod page;
 
-use grouser::answers::traverse::TraverseQuestion;
+use grouser::answers::traverse::{self, TraverseQuestion, reason};
 use grouser::answers::{self, EVERY_MODEL};
 use grouser::contact::validity::Flag;
 use grouser::document::columns::run;
@@ -19,7 +19,7 @@ use grouser_draw::{Shown, title_of};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use self::of_model::{OfModel, RECORDS, chart, given, reason};
+use self::of_model::{OfModel, RECORDS, chart, given};
 use super::animation::Target;
 use super::destinations::Destinations;
 use super::{Answer, add_files, method};
@@ -69,7 +69,7 @@ pub(crate) fn run(args: &TraverseArgs) -> Result<(), Failure> {
         telemetry.write(&all[0].scenario.value, &all[0].run, folder.as_mut())?;
     }
     if let Some(slide) = slide {
-        let says = page::sentence(&all[0]);
+        let says = traverse::sentence(&all[0].scenario.value, &all[0].run);
         slide.write(&says, &chart(&all).sheet(), &title_of(&all[0].scenario))?;
     }
     match &all[..] {

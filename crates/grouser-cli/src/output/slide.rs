@@ -3,10 +3,8 @@
 use std::ffi::OsString;
 use std::path::Path;
 
-use grouser::answers::{Answer, PageBlock};
+use grouser::answers::Answer;
 use grouser::document::escape;
-use grouser::document::reading::sentence;
-use grouser_draw::chart::Drawable;
 use grouser_draw::{Sheet, Slide};
 
 use super::file;
@@ -49,22 +47,14 @@ impl<'a> SlideFile<'a> {
     /// * `says`: its sentence
     /// * `whose`: rover and soil
     pub(crate) fn write(&self, says: &str, picture: &Sheet, whose: &str) -> Result<(), Failure> {
-        let version = env!("CARGO_PKG_VERSION");
-        let small_print =
-            [format!("{whose}; grouser {version}"), command(std::env::args_os().skip(1))];
-        let says = sentence(first_sentence(says));
-        let slide = Slide { sentence: &says, picture, small_print: &small_print };
-        file::write_result(self.file, &(self.write)(&slide.sheet()))
+        let command = command(std::env::args_os().skip(1));
+        let slide = Slide::of_answer(says, picture, whose, command);
+        file::write_result(self.file, &(self.write)(&slide))
     }
 
     /// Writes the first sentence and the first figure of an answer that has a page.
     pub(crate) fn write_answer(&self, answer: &Answer, whose: &str) -> Result<(), Failure> {
-        let picture = answer.blocks().find_map(|block| match block {
-            PageBlock::Figure { figure, .. } => Some(figure.sheet()),
-            PageBlock::Charts(charts) => charts.first().map(Drawable::sheet),
-            _ => None,
-        });
-        let Some(picture) = picture else {
+        let Some(picture) = Slide::picture_of(answer) else {
             return Err(Failure::Run("this answer has no picture for a slide".to_owned()));
         };
         self.write_over(answer, &picture, whose)
@@ -77,19 +67,8 @@ impl<'a> SlideFile<'a> {
         picture: &Sheet,
         whose: &str,
     ) -> Result<(), Failure> {
-        let says = answer.blocks().find_map(|block| match block {
-            PageBlock::Verdict(text) => Some(text.as_str()),
-            _ => None,
-        });
-        self.write(says.unwrap_or(&answer.title), picture, whose)
+        self.write(Slide::sentence_of(answer), picture, whose)
     }
-}
-
-/// The first of several sentences: a full stop before a space and a capital ends it.
-fn first_sentence(text: &str) -> &str {
-    let begins = |rest: &str| rest.chars().next().is_some_and(char::is_uppercase);
-    let end = text.match_indices(". ").find(|(at, stop)| begins(&text[at + stop.len()..]));
-    end.map_or(text, |(at, _)| &text[..at])
 }
 
 /// The command that was typed, without the slide's file: it gives the answer again.
@@ -121,12 +100,6 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_first_sentence_ends_before_a_capital() {
-        assert_eq!(first_sentence("go 4.2 % of 9 cells. A heading holds."), "go 4.2 % of 9 cells");
-        assert_eq!(first_sentence("at x 2. m after 3 s."), "at x 2. m after 3 s.");
-    }
 
     #[test]
     fn the_command_is_that_which_was_typed_but_for_the_slide() {

@@ -202,6 +202,45 @@ fn presets_are_those_of_the_command() {
     assert_eq!(listed, place.json("presets"));
 }
 
+/// What was computed before a kill is there after it, and the end has the digest of the command.
+#[test]
+fn a_kill_loses_nothing_of_a_campaign() {
+    let place = Place::new();
+    let set = json!({"campaign.runs": 20_000, "campaign.shard_runs": 50});
+    let asked = json!({"campaign": "campaign-wheel-test", "out": "killed", "set": set});
+    let mut served = Served::start(&place, &["."]);
+    let (port, token, body) = (served.port, served.token.clone(), asked.to_string());
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    let request = format!(
+        "POST /api/campaign HTTP/1.0\r\nHost: localhost:{port}\r\nAuthorization: Bearer \
+         {token}\r\nContent-Type: application/json\r\nContent-Length: {}\r\n\r\n{body}",
+        body.len()
+    );
+    stream.write_all(request.as_bytes()).unwrap();
+    let shards = || {
+        let files = std::fs::read_dir(place.file("killed/runs")).into_iter().flatten().flatten();
+        let names = files.filter_map(|it| it.file_name().into_string().ok());
+        names.filter(|it| it.ends_with(".parquet")).count()
+    };
+    let began = Instant::now();
+    while shards() < 3 {
+        assert!(began.elapsed() < Duration::from_secs(60), "nothing is computed");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    served.child.kill().unwrap();
+    served.child.wait().unwrap();
+    let kept = shards();
+    assert!(kept < 400, "it was too quick to be killed");
+    let served = Served::start(&place, &["."]);
+    let lines = served.ask("campaign", &json!({"out": "killed"}));
+    assert!(lines[0]["done"].as_u64().unwrap() > 50 * kept as u64, "{}", lines[0]);
+    let command = "campaign run campaign-wheel-test --set campaign.runs=20000 --set \
+                   campaign.shard_runs=50 --out whole --format json";
+    let whole = place.shell(&format!("grouser {command}"));
+    let whole: Value = serde_json::from_str(whole.stdout.lines().last().unwrap()).unwrap();
+    assert_eq!(lines[lines.len() - 2]["digest"], whole["digest"]);
+}
+
 #[test]
 #[cfg(unix)]
 fn ctrl_c_ends_it_with_what_it_computes() {

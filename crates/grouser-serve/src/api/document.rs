@@ -1,7 +1,9 @@
 //! `scenario` and `stand`: what a question is about, as complete documents, with the numbers that
 //! may be set, from the rows that declare them.
 
-use grouser::document::{Described, Kind, Loaded, UncertainSoil, json, meaning, unit_of};
+use grouser::document::{
+    self, Described, Document, Kind, Loaded, UncertainSoil, json, meaning, unit_of,
+};
 use serde_json::{Map, Value, json};
 
 use super::fields::AskedFields;
@@ -55,6 +57,28 @@ pub(super) fn stand(console: &Console, body: &[u8]) -> Result<Question, Refusal>
         }
         Ok(())
     }))
+}
+
+/// The numbers of a study's own document that may be set.
+pub(super) fn study_keys(kind: Kind, document: &Document) -> Vec<Value> {
+    let is_own = |path: &&String| {
+        let of_others = ["rover", "soil", "wheel", "free", "choose", "also", "samples"];
+        path.split('.').all(|step| !of_others.contains(&step) && step.parse::<usize>().is_err())
+    };
+    let one = |path: &String| {
+        let value = document.number(path)?;
+        let range = document::range(kind, path);
+        let measured = path.rsplit('.').find_map(unit_of);
+        Some(json!({
+            "key": format!("{kind}.{path}"),
+            "value": value,
+            "minimum": range.as_ref().map(|it| *it.start()),
+            "maximum": range.as_ref().map(|it| *it.end()),
+            "unit": measured.map(|unit| unit.symbol),
+            "meaning": meaning(kind, path),
+        }))
+    };
+    document.number_keys().iter().filter(is_own).filter_map(one).collect()
 }
 
 fn joined<T: Clone>(one: &[T], other: &[T]) -> Vec<T> {

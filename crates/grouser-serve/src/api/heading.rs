@@ -5,6 +5,7 @@ use grouser::answers::{Answer, AnswerOptions, Sampling};
 use grouser::document::gradient::GradientKeys;
 use grouser::document::{self, Kind};
 use grouser::studies::heading::Steering;
+use grouser_draw::title_of;
 
 use super::command::CommandLine;
 use super::fields::AskedFields;
@@ -82,6 +83,10 @@ impl Staged for HeadingQuestion {
 
     fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, Refusal> {
         self.answer("heading", options).map_err(refused)
+    }
+
+    fn whose(&self) -> String {
+        title_of(&self.scenarios[0])
     }
 
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {

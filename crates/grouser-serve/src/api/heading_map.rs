@@ -4,6 +4,7 @@ use grouser::answers::heading_map::HeadingMapQuestion;
 use grouser::answers::{Answer, AnswerOptions, Sampling};
 use grouser::document::study::{COURSE_DEG, MAP_SPEED_M_S};
 use grouser::document::{self, Kind};
+use grouser_draw::title_of;
 
 use super::command::CommandLine;
 use super::fields::AskedFields;
@@ -57,6 +58,10 @@ impl Staged for HeadingMapQuestion {
 
     fn answer(&self, options: &AnswerOptions<'_>) -> Result<Answer, Refusal> {
         self.answer("heading-map", options).map_err(refused)
+    }
+
+    fn whose(&self) -> String {
+        title_of(&self.scenarios[0])
     }
 
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {

@@ -12,6 +12,7 @@ use grouser::document::study::COURSE_DEG;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::mobility::{CourseChoice, Ground, MobilityMap};
 use grouser_draw::style::on_both_grounds;
+use grouser_draw::{Sheet, title_of};
 use grouser_map::{
     BandPictures, KEEP_OUT_FILE, MAP_PAGE, MapColumn, band_files, keep_out, label, summaries,
 };
@@ -144,6 +145,26 @@ impl MapAsked {
         }
     }
 
+    fn pictures<'q>(&'q self, mapped: &'q Mapped, question: &MapQuestion<'q>) -> BandPictures<'q> {
+        BandPictures::of(&self.ground.scenario, &self.given_course, (question.ground, &mapped.map))
+    }
+
+    /// The bands that are asked for, drawn.
+    fn drawn<'q>(
+        &'q self,
+        mapped: &'q Mapped,
+        question: &MapQuestion<'q>,
+    ) -> Vec<(MapColumn, Sheet)> {
+        let pictures = self.pictures(mapped, question);
+        let all = question.bands().into_iter().zip(&mapped.sums);
+        let drawn = all.filter(|(band, _)| self.layers.iter().any(|layer| layer == band.name));
+        let drawn = drawn.map(|(band, sum)| {
+            let sheet = pictures.band(&band, sum);
+            (band, sheet)
+        });
+        drawn.collect()
+    }
+
     /// The map, which is kept for the next question about it.
     pub(super) fn mapped(&self, options: &AnswerOptions<'_>) -> Result<Arc<Mapped>, Refusal> {
         let Sampling { count, seed } = self.sampling;
@@ -187,6 +208,15 @@ impl Staged for MapAsked {
         Ok(answer)
     }
 
+    fn whose(&self) -> String {
+        title_of(&self.ground.scenario)
+    }
+
+    fn picture(&self) -> Option<Sheet> {
+        let last = self.last.borrow();
+        self.drawn(last.as_ref()?, &self.question(&last.as_ref()?.raster)).pop().map(|it| it.1)
+    }
+
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {
         add_samples(line, sampling);
     }
@@ -195,19 +225,14 @@ impl Staged for MapAsked {
         let last = self.last.borrow();
         let Some(mapped) = last.as_ref() else { return Ok(()) };
         let question = self.question(&mapped.raster);
-        let of_map = (question.ground, &mapped.map);
-        let pictures = BandPictures::of(question.scenario, &self.given_course, of_map);
         let bands = question.bands();
-        let drawn = bands.iter().zip(&mapped.sums);
-        let drawn = drawn.filter(|(band, _)| self.layers.iter().any(|layer| layer == band.name));
-        let drawings = drawn.map(|(band, sum)| {
-            let svg = on_both_grounds(&pictures.band(band, sum));
-            json!({ "name": band.name, "caption": band.doc, "svg": svg })
+        let drawings = self.drawn(mapped, &question).into_iter().map(|(band, sheet)| {
+            json!({ "name": band.name, "caption": band.doc, "svg": on_both_grounds(&sheet) })
         });
         let layers = bands
             .iter()
             .map(|band| json!({ "name": band.name, "label": label(band), "about": band.doc }));
-        let frame = pictures.frame();
+        let frame = self.pictures(mapped, &question).frame();
         shown["drawings"] = drawings.collect();
         shown["layers"] = layers.collect();
         shown["frame"] = json!({

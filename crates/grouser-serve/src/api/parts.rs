@@ -16,7 +16,7 @@ use crate::folder::ServedFolder;
 use crate::refusal::Refusal;
 
 /// CommonSettings of a question, beside its numbers.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct CommonSettings {
     model: Option<String>,
     /// [m/s²].
@@ -61,13 +61,54 @@ pub(super) struct Stand {
     pub(super) asked_model: Option<Model>,
 }
 
+/// A study's document, with what is set in it.
+#[derive(Clone, Debug)]
+pub(super) struct StudyParts {
+    kind: Kind,
+    name: String,
+    settings: CommonSettings,
+}
+
+impl StudyParts {
+    /// * `key`: of the document in the question
+    pub(super) fn of(
+        fields: &AskedFields,
+        (kind, key): (Kind, &'static str),
+    ) -> Result<Self, Refusal> {
+        let name = fields.text(key)?;
+        let name = name.ok_or_else(|| {
+            Refusal::of_key(key, "it must be a preset, or the path of a document in the folder")
+        })?;
+        Self::named(fields, kind, name)
+    }
+
+    /// Those of a document of that name.
+    pub(super) fn named(fields: &AskedFields, kind: Kind, name: String) -> Result<Self, Refusal> {
+        let settings = CommonSettings { set: set_of(fields)?, ..CommonSettings::default() };
+        Ok(Self { kind, name, settings })
+    }
+
+    /// The document, read by what reads its kind.
+    pub(super) fn read<T>(
+        &self,
+        folder: &ServedFolder,
+        read: fn(&Source, &Overrides) -> Result<T, DocumentError>,
+    ) -> Result<T, Refusal> {
+        let kinds = [self.kind, Kind::Scenario, Kind::Rover, Kind::Soil, Kind::Wheel, Kind::Motor];
+        let overrides = self.settings.overrides(folder, &kinds)?;
+        let source = find(self.kind.name(), folder, self.kind, &self.name)?;
+        read(&source, &overrides).map_err(|error| self.settings.blamed(&error))
+    }
+
+    pub(super) fn add_words(&self, line: &mut CommandLine) {
+        line.word(&self.name);
+        self.settings.add_words(line);
+    }
+}
+
 impl CommonSettings {
     fn of(fields: &AskedFields) -> Result<Self, Refusal> {
-        let mut set = Vec::new();
-        for (key, value) in fields.entries("set")? {
-            let toml = toml_of(&key, &value)?;
-            set.push((key, toml));
-        }
+        let set = set_of(fields)?;
         Ok(Self {
             model: fields.text("model")?,
             gravity: gravity(fields)?,
@@ -364,6 +405,11 @@ impl StandParts {
         &self.settings
     }
 
+    /// What the question calls the wheel.
+    pub(super) fn wheel(&self) -> &str {
+        &self.wheel
+    }
+
     /// The stand for each model that is asked for.
     pub(super) fn stands(
         &self,
@@ -413,6 +459,16 @@ impl Stand {
     }
 }
 
+/// Keys of documents that a question sets, each with its value as TOML.
+fn set_of(fields: &AskedFields) -> Result<Vec<(String, String)>, Refusal> {
+    let entries = fields.entries("set")?.into_iter();
+    let each = entries.map(|(key, value)| {
+        let toml = toml_of(&key, &value)?;
+        Ok((key, toml))
+    });
+    each.collect()
+}
+
 /// A document that a question names.
 fn find(
     key: &'static str,
@@ -453,13 +509,23 @@ fn text_of(text: &str) -> String {
     json!(text).to_string()
 }
 
+/// An entry of a list as TOML, which may be a table, such as the leg of a mission.
+fn entry_of(key: &str, value: &Value) -> Result<String, Refusal> {
+    let Value::Object(entries) = value else { return toml_of(key, value) };
+    let each = entries.iter().map(|(name, value)| {
+        let value = entry_of(key, value)?;
+        Ok(format!("{} = {value}", text_of(name)))
+    });
+    Ok(format!("{{ {} }}", each.collect::<Result<Vec<_>, Refusal>>()?.join(", ")))
+}
+
 /// A value as TOML.
 fn toml_of(key: &str, value: &Value) -> Result<String, Refusal> {
     match value {
         Value::Bool(_) | Value::Number(_) | Value::String(_) => Ok(value.to_string()),
         Value::Array(all) => {
             let all: Vec<String> =
-                all.iter().map(|value| toml_of(key, value)).collect::<Result<_, _>>()?;
+                all.iter().map(|value| entry_of(key, value)).collect::<Result<_, _>>()?;
             Ok(format!("[{}]", all.join(", ")))
         }
         Value::Object(_) | Value::Null => {

@@ -76,6 +76,10 @@ impl Staged for PlaceAsked {
         Ok(answer)
     }
 
+    fn whose(&self) -> String {
+        self.map.whose()
+    }
+
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {
         map::add_samples(line, sampling);
     }

@@ -13,6 +13,7 @@ use grouser::document::unit::less_whole_turns;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::route::{COURSES, Ends, Limits, Objective, RouteError, RouteStudy};
 use grouser::units::Vec2;
+use grouser_draw::title_of;
 use grouser_map::way_as_geojson;
 use grouser_raster::zones::ZoneCounts;
 use grouser_raster::{MapPath, Raster, RasterError};
@@ -194,6 +195,10 @@ impl Staged for RouteAsked {
         let line = way_as_geojson(&ways[0].record, &raster.coordinates);
         self.last.replace((line, remarks));
         Ok(question.answer("route", &ways))
+    }
+
+    fn whose(&self) -> String {
+        title_of(&self.ground.scenario)
     }
 
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {

@@ -7,12 +7,14 @@ use grouser::answers::{Answer, AnswerError, AnswerOptions, Displayed, PageBlock,
 use grouser::contact::Model;
 use grouser::document::json;
 use grouser_draw::chart::Drawable as _;
+use grouser_draw::{Sheet, Slide};
 use hyper::StatusCode;
 use serde_json::{Value, json};
 
 use super::command::CommandLine;
 use super::fields::AskedFields;
 use crate::asked::Question;
+use crate::progress::Progress;
 use crate::refusal::Refusal;
 
 /// A question that samples answer, or none.
@@ -25,6 +27,19 @@ pub(super) trait Staged: 'static {
     /// The words that ask the program for these samples.
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>);
 
+    /// What is counted on the way, where somebody watches it: such a study may take long.
+    fn counts(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// Rover and soil, as a slide names them.
+    fn whose(&self) -> String;
+
+    /// The picture of a slide, where it is no figure of the answer.
+    fn picture(&self) -> Option<Sheet> {
+        None
+    }
+
     /// Adds what is shown of the last answer beside its words, such as pictures.
     fn add_shown(&self, _shown: &mut Value) -> Result<(), Refusal> {
         Ok(())
@@ -35,13 +50,20 @@ pub(super) trait Staged: 'static {
 #[derive(Clone, Debug)]
 pub(super) struct Stages {
     samplings: Vec<Option<Sampling>>,
-    /// Whether sentences, documents and the command come along.
-    shows: bool,
-    /// Whether figures come along, too.
-    draws: bool,
+    /// Whether sentences, documents and the command come along, and what else.
+    shown: Option<Shown>,
     is_strict: bool,
     /// With those of every model and of every derivative.
     rows: usize,
+}
+
+/// What is shown beside sentences.
+#[derive(Clone, Copy, Debug)]
+struct Shown {
+    /// Whether figures and tables come along.
+    draws: bool,
+    /// Whether a slide comes along.
+    has_slide: bool,
 }
 
 /// More rows take long without samples, too.
@@ -83,8 +105,10 @@ impl Stages {
             (None, None) => vec![usual.map(|count| Sampling { count, seed })],
         };
         let draws = fields.truth("figures")?;
-        let (shows, is_strict) = (fields.truth("shown")? || draws, fields.truth("strict")?);
-        Ok(Self { samplings: stages, shows, draws, is_strict, rows: 1 })
+        let has_slide = fields.truth("slide")?;
+        let shows = fields.truth("shown")? || draws || has_slide;
+        let shown = shows.then_some(Shown { draws, has_slide });
+        Ok(Self { samplings: stages, shown, is_strict: fields.truth("strict")?, rows: 1 })
     }
 
     /// Whether any stage has samples.
@@ -156,6 +180,8 @@ impl Stages {
     /// The question, answered stage by stage.
     pub(super) fn question(self, mut asked: impl Staged, line: CommandLine) -> Question {
         Question::new(move |go_on, send| {
+            let progress = asked.counts().map(|what| Progress::new(send, what, 0, None));
+            let go_on = &if progress.is_some() { go_on.of_study() } else { go_on.clone() };
             for sampling in self.samplings {
                 let is_quick = sampling.is_none() && self.rows <= QUICK_ROWS;
                 let turn = if is_quick { None } else { go_on.turn() };
@@ -163,9 +189,12 @@ impl Stages {
                     return Err(refused(AnswerError::Stopped));
                 }
                 asked.sample(sampling);
-                let is_on = || go_on.is_on();
+                let is_on = || {
+                    progress.iter().for_each(Progress::count);
+                    go_on.is_on()
+                };
                 let options = AnswerOptions {
-                    has_page: self.draws,
+                    has_page: self.shown.is_some_and(|it| it.draws || it.has_slide),
                     is_strict: self.is_strict,
                     go_on: &is_on,
                 };
@@ -177,11 +206,14 @@ impl Stages {
                 if !send(json::line(&answer)) {
                     return Ok(());
                 }
-                if self.shows {
+                if let Some(Shown { draws, has_slide }) = self.shown {
                     let mut line = line.clone();
                     asked.add_samples(&mut line, sampling);
-                    let mut shown = shown(&answer, &line, self.draws);
+                    let mut shown = shown(&answer, &line, draws);
                     asked.add_shown(&mut shown)?;
+                    if has_slide {
+                        shown["slide"] = json!(slide(&asked, &answer, &line));
+                    }
                     if !send(json::line(&shown)) {
                         return Ok(());
                     }
@@ -190,6 +222,13 @@ impl Stages {
             Ok(())
         })
     }
+}
+
+/// The first sentence of an answer over its picture, if it has one.
+fn slide(asked: &impl Staged, answer: &Answer, line: &CommandLine) -> Option<String> {
+    let picture = asked.picture().or_else(|| Slide::picture_of(answer))?;
+    let (says, command) = (Slide::sentence_of(answer), line.text().to_owned());
+    Some(Slide::of_answer(says, &picture, &asked.whose(), command).to_svg())
 }
 
 /// What a page shows of an answer beside its numbers.
@@ -207,6 +246,15 @@ fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
         }
         _ => Vec::new(),
     });
+    let tables = answer.blocks().filter(|_| draws).filter_map(|block| match block {
+        PageBlock::Rows { caption, table, columns } => {
+            let (names, all): (Vec<&str>, Vec<usize>) =
+                (columns.iter().map(|it| &**it).collect(), (0..table.rows()).collect());
+            let rows = table.select(&names, &all);
+            Some(json!({ "caption": caption, "columns": names, "rows": rows }))
+        }
+        _ => None,
+    });
     json!({
         "schema": "grouser.shown.v1",
         "command": line.text(),
@@ -214,6 +262,7 @@ fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
         "assumptions": answer.assumptions(),
         "documents": documents.collect::<BTreeMap<_, _>>(),
         "figures": figures.collect::<Vec<_>>(),
+        "tables": tables.collect::<Vec<_>>(),
     })
 }
 

@@ -9,6 +9,7 @@ use grouser::document::columns::{TIME, run};
 use grouser::simulation::{RunError, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::{TraverseBand, record_times};
+use grouser_draw::title_of;
 use hyper::StatusCode;
 
 use super::command::CommandLine;
@@ -95,6 +96,10 @@ impl Staged for TraverseAsked {
         let band = TraverseBand::of(scenario, &samples, &times, options.go_on).map_err(failed)?;
         let band = band.ok_or_else(stopped)?;
         Ok(question.answer("traverse", run, Some((&band, sampling)), None))
+    }
+
+    fn whose(&self) -> String {
+        title_of(&self.scenario)
     }
 
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {

@@ -74,6 +74,10 @@ impl Staged for WheelTestQuestion {
         self.answer("wheel-test", options).map_err(refused)
     }
 
+    fn whose(&self) -> String {
+        format!("{} on {}", self.wheel.document.name(), self.soil.document.name())
+    }
+
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {
         add_uncertainty(line, sampling);
     }

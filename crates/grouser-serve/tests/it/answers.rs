@@ -161,3 +161,21 @@ fn hostile_names_come_back_as_text() {
         }
     }
 }
+
+/// 16 to 9, with the first sentence of the answer and the command that gives it again.
+#[test]
+fn every_answer_with_a_picture_has_a_slide() {
+    let server = Served::usual();
+    for (question, body) in [
+        ("heading", json!({"slope_deg": 10, "nominal": true, "slide": true})),
+        ("heading-map", json!({"slope_deg": [5, 10], "course_deg": [0, 30], "slide": true})),
+        ("wheel-test", json!({"slip_ratio": [0, 0.2, 0.4], "slide": true})),
+        ("traverse", json!({"slope_deg": 10, "duration_s": 2, "slide": true})),
+    ] {
+        let shown = server.post(question, &body).lines().pop().unwrap();
+        let slide = shown["slide"].as_str().unwrap();
+        assert!(slide.contains("viewBox=\"0 0 320 180\""), "{question}");
+        let command = shown["command"].as_str().unwrap();
+        assert!(slide.contains(&format!(">{command}</text>")), "{question}: {command}");
+    }
+}

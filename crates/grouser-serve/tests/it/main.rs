@@ -2,8 +2,12 @@
 
 mod access;
 mod answers;
+mod campaign;
+mod design;
+mod fit;
 mod folder;
 mod limits;
 mod load;
 mod map;
+mod mission;
 mod served;

@@ -1,7 +1,10 @@
 //! A run over a slope or a map of heights: what became of it, and each of its records.
 
+mod path;
+
 use serde_json::{Value, json};
 
+pub use self::path::{Path, path_chart, reason, sentence};
 use super::{Answer, Member, Sampling, gradient, weights};
 use crate::document::columns;
 use crate::document::columns::run::{self, RunObject};
@@ -87,7 +90,7 @@ impl TraverseQuestion<'_> {
         Ok(Some(run.finish()))
     }
 
-    /// The answer. Front ends write its page.
+    /// The answer, with where the run ended and its path for a slide: front ends write its page.
     ///
     /// * `band`: what samples make of it, with these
     /// * `gradient`: its derivatives
@@ -119,6 +122,10 @@ impl TraverseQuestion<'_> {
             answer.results.push(Member::Row(Some("band"), of_run));
             answer.results.push(Member::rows("bands", run::time_bands(&band.times, scenario)));
         }
+        answer.verdict(sentence(scenario, run));
+        let path = (scenario.model.name(), run, band.map(|(band, _)| band));
+        let chart = path_chart(!scenario.ground.is_plane(), &[path]);
+        answer.figure(Some("traverse"), chart, "The path, seen from above.");
         answer.attach("scenario.toml", loaded);
         answer.given = given_to_drives(loaded, scenario, [run]);
         answer

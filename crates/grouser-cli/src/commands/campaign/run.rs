@@ -1,17 +1,11 @@
 //! `grouser campaign run`: computes all missing runs of a campaign.
-//!
-//! One thread has the shards computed, by all threads, one shard after another; another one takes
-//! them to the disk, so that no thread waits for that.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::thread;
 
 use grouser::document::Campaign;
 use grouser::document::campaign::FAILED;
 use grouser::document::table::Values;
-use grouser_store::{Folder, Results, ShardSet, StoreError, Study, shard_bytes};
+use grouser_store::{Folder, Results, Study, compute};
 use indicatif::ProgressBar;
 use serde::Serialize;
 
@@ -22,9 +16,6 @@ use crate::args::{CampaignRunArgs, ExecutorChoice, TableOrJson};
 use crate::commands::Answer;
 use crate::failure::Failure;
 use crate::{interrupt, output};
-
-/// A shard's number and bytes.
-type Shard = (u64, Vec<u8>);
 
 /// What a campaign comes to.
 #[derive(Serialize)]
@@ -57,7 +48,7 @@ pub(super) fn run(args: &CampaignRunArgs) -> Result<(), Failure> {
     let progress = Progress::new(args.format, &folder);
     if !finished_before {
         interrupt::handle_ctrl_c();
-        compute(&campaign, &mut folder, &progress)?;
+        compute_missing(&campaign, &mut folder, &progress)?;
     }
     let runs_per_s = progress.rate(&folder);
     let (digest, statuses) = read_once(&mut folder)?;
@@ -115,21 +106,23 @@ fn tell_surprises(folder: &Folder) {
 }
 
 /// Computes what is missing, until Ctrl-C or the disk stops it.
-fn compute(campaign: &Campaign, folder: &mut Folder, progress: &Progress) -> Result<(), Failure> {
-    // Two shards wait at most: more would only fill memory where the disk is slow.
-    let (sender, receiver) = sync_channel(2);
-    let missing = folder.missing().clone();
-    let disk_failed = AtomicBool::new(false);
-    let done = thread::scope(|scope| {
-        let go_on = || {
-            progress.start();
-            !interrupt::is_asked_to_stop() && !disk_failed.load(Ordering::Relaxed)
-        };
-        let computing = scope.spawn(move || compute_shards(campaign, &missing, &go_on, &sender));
-        let kept = keep(folder, receiver, progress);
-        disk_failed.store(kept.is_err(), Ordering::Relaxed);
-        let computed = computing.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        kept.and(computed.map_err(Failure::from))
+fn compute_missing(
+    campaign: &Campaign,
+    folder: &mut Folder,
+    progress: &Progress,
+) -> Result<(), Failure> {
+    let go_on = || {
+        progress.start();
+        !interrupt::is_asked_to_stop()
+    };
+    let mut reported = None;
+    progress.report(folder, &mut reported)?;
+    let done = compute(campaign, folder, &go_on, |folder, shard, bytes| {
+        {
+            let _deferred = interrupt::defer_ctrl_c();
+            folder.accept(shard, bytes)?;
+        }
+        progress.report(folder, &mut reported)
     });
     progress.end();
     if done.is_err() {
@@ -144,35 +137,6 @@ fn compute(campaign: &Campaign, folder: &mut Folder, progress: &Progress) -> Res
             folder.runs_done(),
             folder.runs()
         )));
-    }
-    Ok(())
-}
-
-fn compute_shards(
-    campaign: &Campaign,
-    shards: &ShardSet,
-    go_on: &(dyn Fn() -> bool + Sync),
-    sender: &SyncSender<Shard>,
-) -> Result<(), StoreError> {
-    for shard in shards.iter() {
-        let Some(bytes) = shard_bytes(campaign, shard, go_on)? else { break };
-        // Nobody takes shards any more once the disk failed.
-        if sender.send((shard, bytes)).is_err() {
-            break;
-        }
-    }
-    Ok(())
-}
-
-fn keep(folder: &mut Folder, shards: Receiver<Shard>, progress: &Progress) -> Result<(), Failure> {
-    let mut reported = None;
-    progress.report(folder, &mut reported)?;
-    for (shard, bytes) in shards {
-        {
-            let _deferred = interrupt::defer_ctrl_c();
-            folder.accept(shard, &bytes)?;
-        }
-        progress.report(folder, &mut reported)?;
     }
     Ok(())
 }

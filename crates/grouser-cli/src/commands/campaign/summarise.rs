@@ -1,13 +1,11 @@
 //! `grouser campaign summarise`: statistics of all runs.
 
-mod figures;
 mod page;
-mod statistics;
 
 use grouser_draw::chart::Drawable;
+use grouser_store::Statistics;
 use serde::Serialize;
 
-use self::statistics::Statistics;
 use super::digest::DigestRecord;
 use super::{inputs, stored};
 use crate::args::CampaignSummariseArgs;
@@ -49,7 +47,7 @@ pub(super) fn run(args: &CampaignSummariseArgs) -> Result<(), Failure> {
         if !statistics.sensitivities.is_empty() {
             folder.add("sensitivities.csv", Rows::of(&statistics.sensitivities).to_csv()?);
         }
-        let figures = figures::all(&statistics);
+        let figures = grouser_store::figures(&statistics);
         for figure in &figures {
             folder.add(format!("figures/{}.svg", figure.file), figure.chart.to_svg());
         }

@@ -1,7 +1,7 @@
 //! What a wheel–soil model answers about a traverse.
 
 use grouser::answers::AnswerError;
-use grouser::answers::traverse::RunGradient;
+use grouser::answers::traverse::{Path, RunGradient, path_chart};
 use grouser::document::columns::{MODEL, TIME, run};
 use grouser::document::given_file::GivenFile;
 use grouser::document::given_to_drives;
@@ -9,10 +9,9 @@ use grouser::document::gradient::{GradientKeys, RunKeys};
 use grouser::document::table::Table;
 use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::{Run, RunError, Trajectory};
-use grouser::studies::ensemble::Band;
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::traverse_band::{TimeBand, TraverseBand, record_times};
-use grouser_draw::chart::{BAND_COLOUR, Chart, Series, Style};
+use grouser::studies::traverse_band::{TraverseBand, record_times};
+use grouser_draw::chart::Chart;
 
 use crate::args::{SettingArgs, TraverseArgs, UncertaintyArgs};
 use crate::commands::{sampling, strict};
@@ -137,61 +136,9 @@ fn unfinished(
 /// The paths, seen from above, each with its band if there is one.
 pub(super) fn chart(all: &[OfModel]) -> Chart {
     let on_a_map = all.iter().any(|it| !it.scenario.value.ground.is_plane());
-    let mut series = Vec::new();
-    for (place, of_model) in all.iter().enumerate() {
-        let Some(band) = &of_model.band else { continue };
-        let name = if all.len() > 1 { of_model.name() } else { "the samples" };
-        let name = format!("95 % of {name}");
-        let colour = if all.len() > 1 { place + 1 } else { BAND_COLOUR };
-        if on_a_map {
-            series.extend(spread(&band.times, name, colour));
-        } else {
-            series.push(Series::band(name, colour, along_contour(&band.times)));
-        }
-    }
-    for (place, of_model) in all.iter().enumerate() {
-        let records = of_model.run.records.iter();
-        let points = records.map(|record| (record.place().x, record.place().y));
-        let name = if all.len() > 1 { of_model.name() } else { "" };
-        series.push(Series::new(name, Style::Line, place + 1, points));
-    }
-    if on_a_map {
-        return Chart::new("Path on the map", ("east, x [m]", "north, y [m]"), series);
-    }
-    Chart::new("Path on the slope", ("along the contour, x [m]", "uphill, y [m]"), series)
-}
-
-/// The edges of a band beside a path along the contour: it is over one time, and drawn where the
-/// rover is then, in the middle of the samples.
-fn along_contour(times: &[TimeBand]) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
-    times.iter().filter_map(|at| {
-        let (x, y) = (at.x?, at.y?);
-        Some((x.median, y.low, y.high))
-    })
-}
-
-/// The places of samples on a map at a few times, as crosses: a way there goes in any direction.
-fn spread(times: &[TimeBand], name: String, colour: usize) -> [Series; 2] {
-    /// At most as many, besides the start.
-    const CROSSES: usize = 8;
-    let last = times.len() - 1;
-    let count = CROSSES.min(last);
-    let chosen = (0..=count).map(|cross| &times[cross * last / count.max(1)]);
-    let bands: Vec<(Band, Band)> = chosen.filter_map(|at| Some((at.x?, at.y?))).collect();
-    let middle = |band: &Band| 0.5 * (band.low + band.high);
-    let half = |band: &Band| 0.5 * (band.high - band.low);
-    let points = || bands.iter().map(|(x, y)| (middle(x), middle(y)));
-    let upright = Series::new(name, Style::Dots, colour, points());
-    let across = Series::new("", Style::Dots, colour, points());
-    [
-        upright.with_error_bars(bands.iter().map(|(_, y)| half(y))),
-        across.with_bars_across(bands.iter().map(|(x, _)| half(x))),
-    ]
-}
-
-/// The reason of an outcome, after a colon, on one line.
-pub(super) fn reason(run: &Trajectory) -> String {
-    run.outcome.reason().map_or(String::new(), |reason| format!(": {}", escape::line(&reason)))
+    let paths: Vec<Path<'_>> =
+        all.iter().map(|it| (it.name(), &it.run, it.band.as_ref())).collect();
+    path_chart(on_a_map, &paths)
 }
 
 /// What the files gave.

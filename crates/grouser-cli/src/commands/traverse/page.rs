@@ -1,20 +1,18 @@
 //! The page of a traverse: where the rover ends up, its path, and every channel over time.
 
-use grouser::answers::EVERY_MODEL;
+use grouser::answers::{EVERY_MODEL, traverse};
 use grouser::contact::validity::Finding;
 use grouser::document::columns::run::{self, STANDING_BAND, TIME_BAND};
 use grouser::document::columns::{
     Column, ENERGY, MODEL, Quantity, SINKAGE, SLIP_RATIO, TIME, X, Y, YAW,
 };
 use grouser::document::figure::axis;
-use grouser::document::reading::{self, capitalised, four_digits, metres};
+use grouser::document::reading::{self, capitalised};
 use grouser::document::table::Table;
-use grouser::studies::drive::Drive;
 use grouser::studies::traverse_band::Ends;
-use grouser::units::Vec2;
 use grouser_draw::chart::{BAND_COLOUR, Chart, Drawable, Series, Style};
 
-use super::of_model::{OfModel, chart, given, reason};
+use super::of_model::{OfModel, chart, given};
 use crate::args::TraverseArgs;
 use crate::commands::sampling;
 use crate::report::answer::{self, Basis, over_ground, over_time, run_meanings};
@@ -24,7 +22,10 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
     let mut page = Page::new("A traverse");
     for of_model in all {
         let name = if all.len() > 1 { format!("{}: ", of_model.name()) } else { String::new() };
-        page.answer(&format!("{name}{}", sentence(of_model)));
+        page.answer(&format!(
+            "{name}{}",
+            traverse::sentence(&of_model.scenario.value, &of_model.run)
+        ));
     }
     page.list(what_was_run(&all[0]));
     let is_on_a_map = !all[0].scenario.value.ground.is_plane();
@@ -48,41 +49,6 @@ pub(super) fn html(args: &TraverseArgs, all: &[OfModel]) -> String {
         .collect();
     let columns = all.first().map_or(Vec::new(), |it| run_meanings(&it.scenario.value));
     answer::close(page, Some(&findings), &columns, &basis(args, all))
-}
-
-/// Where a rover ended up, and what that took.
-pub(super) fn sentence(of: &OfModel) -> String {
-    let run = &of.run;
-    let (end, drive) = (run.last(), Drive::of(run, &of.scenario.value));
-    let yaw = four_digits(YAW.unit.from_si(end.state.yaw));
-    let place = match end.standing() {
-        Some(standing) => format!(
-            "at x {} m, y {} m and a height of {} m, the nose at {yaw}° from east",
-            metres(end.place().x),
-            metres(end.place().y),
-            metres(standing.height),
-        ),
-        None => on_slope(end.state.position, &yaw),
-    };
-    let energy = drive
-        .energy_per_metre
-        .map_or(String::new(), |it| format!(", {} J for each metre", four_digits(it)));
-    format!(
-        "{} after {} s{}: {place}. The motors did {} J{energy}.",
-        capitalised(&run.outcome.kind().in_words()),
-        four_digits(end.time),
-        reason(run),
-        four_digits(drive.energy),
-    )
-}
-
-/// Where the rover is on a slope [m], and how it is turned [°].
-fn on_slope(place: Vec2, yaw: &str) -> String {
-    let side = if place.y < 0.0 { "below" } else { "above" };
-    let (along, off) = (four_digits(place.x), four_digits(place.y.abs()));
-    format!(
-        "{along} m along the contour and {off} m {side} it, the nose at {yaw}° (positive uphill)"
-    )
 }
 
 fn what_was_run(first: &OfModel) -> Vec<String> {

@@ -2,10 +2,8 @@
 
 use grouser::document::Campaign;
 use grouser_draw::chart::Drawable;
-use grouser_store::Results;
+use grouser_store::{Figure, Results, Statistics};
 
-use super::figures::Figure;
-use super::statistics::Statistics;
 use crate::commands::campaign::digest::DigestRecord;
 use crate::report::page::Page;
 
@@ -18,7 +16,7 @@ pub(super) fn html(
 ) -> String {
     let manifest = results.manifest();
     let mut page = Page::new(&manifest.name);
-    page.answer(&answer(statistics));
+    page.answer(&statistics.sentence());
     let part =
         manifest.part.map_or(String::new(), |part| format!(", of which this is part {part}"));
     page.list([
@@ -48,19 +46,4 @@ pub(super) fn html(
     page.folded("Assumptions in force", |page| page.list(campaign.assumptions()));
     page.folded("The study", |page| page.code(results.study()));
     page.to_html()
-}
-
-/// The probability of failure, in a sentence.
-fn answer(statistics: &Statistics) -> String {
-    let failure = statistics.probabilities.iter().find(|it| it.event.starts_with("failure"));
-    let Some(it) = failure else { return "There are no runs.".into() };
-    format!(
-        "{} of {} runs failed, that is, had no result or were not completed: {:.2} %, with 95 % \
-         confidence between {:.2} and {:.2} %.",
-        it.count,
-        it.runs,
-        1e2 * it.probability,
-        1e2 * it.probability_low,
-        1e2 * it.probability_high
-    )
 }

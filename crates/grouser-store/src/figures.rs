@@ -1,19 +1,23 @@
 //! The figures of a summary: distributions, convergence, sensitivities.
 
-use grouser_draw::chart::{Chart, Series, Style};
+use grouser::document::figure::{Chart, Series, Style};
 
-use super::statistics::{ConvergenceRecord, Curve, SensitivityRecord, Statistics};
+use crate::statistics::{ConvergenceRecord, Curve, SensitivityRecord, Statistics};
 
-/// A figure.
-pub(super) struct Figure {
+/// A figure of a summary.
+#[derive(Debug)]
+pub struct Figure {
     /// Name of its file, without ending.
-    pub(super) file: String,
-    pub(super) caption: String,
-    pub(super) chart: Chart,
+    pub file: String,
+    /// What it shows.
+    pub caption: String,
+    /// What is drawn.
+    pub chart: Chart,
 }
 
 /// All of them, those of a quantity after each other.
-pub(super) fn all(statistics: &Statistics) -> Vec<Figure> {
+#[must_use]
+pub fn figures(statistics: &Statistics) -> Vec<Figure> {
     let of_quantity = |curve: &Curve| {
         let of = |quantity: &String| *quantity == curve.quantity;
         let steps = statistics.convergence.iter().filter(|it| of(&it.quantity));

@@ -1,4 +1,4 @@
-//! The numbers of a summary, one column of the results after another.
+//! The numbers of a campaign's summary, one column of the results after another.
 
 use std::ops::Range;
 
@@ -8,91 +8,128 @@ use grouser::document::reading::four_digits;
 use grouser::document::table::{ColumnKind, Values};
 use grouser::studies::ensemble::sensitivity::Sensitivity;
 use grouser::studies::ensemble::statistics::{Convergence, Estimate, Quantile, Summary};
-use grouser_store::{Finished, Results};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use crate::failure::Failure;
+use crate::error::StoreError;
+use crate::results::{Finished, Results};
 
 /// Half of all are below [-].
 const MEDIAN: f64 = 0.5;
 /// The quantiles, and the ends of their names.
-pub(super) const QUANTILES: [(f64, &str); 5] =
+const QUANTILES: [(f64, &str); 5] =
     [(0.025, "p2_5"), (0.25, "p25"), (MEDIAN, "p50"), (0.75, "p75"), (0.975, "p97_5")];
 /// Points of a distribution's curve.
 const CURVE: usize = 200;
 
 /// The statistics of a campaign.
-#[derive(Serialize)]
-pub(super) struct Statistics {
+#[derive(Debug, Serialize)]
+pub struct Statistics {
     /// A row for each quantity.
-    pub(super) rows: Vec<Map<String, Value>>,
-    pub(super) probabilities: Vec<ProbabilityRecord>,
-    pub(super) sensitivities: Vec<SensitivityRecord>,
-    pub(super) convergence: Vec<ConvergenceRecord>,
+    pub rows: Vec<Map<String, Value>>,
+    /// Of each event.
+    pub probabilities: Vec<ProbabilityRecord>,
+    /// Of each input and quantity, where the campaign was laid out for them.
+    pub sensitivities: Vec<SensitivityRecord>,
+    /// Of each quantity after ever more runs.
+    pub convergence: Vec<ConvergenceRecord>,
     /// For the figures.
     #[serde(skip)]
-    pub(super) curves: Vec<Curve>,
+    pub curves: Vec<Curve>,
 }
 
 /// The probability of an event.
-#[derive(Serialize)]
-pub(super) struct ProbabilityRecord {
-    pub(super) event: String,
-    pub(super) count: usize,
-    pub(super) runs: usize,
-    pub(super) probability: f64,
-    pub(super) probability_low: f64,
-    pub(super) probability_high: f64,
+#[derive(Debug, Serialize)]
+pub struct ProbabilityRecord {
+    /// What happens.
+    pub event: String,
+    /// In how many runs.
+    pub count: usize,
+    /// Of how many.
+    pub runs: usize,
+    /// Its probability [-].
+    pub probability: f64,
+    /// The lower end of its 95 % interval.
+    pub probability_low: f64,
+    /// The upper end.
+    pub probability_high: f64,
 }
 
 /// Sobol indices of an input for a quantity.
-#[derive(Serialize)]
-pub(super) struct SensitivityRecord {
-    pub(super) quantity: String,
-    pub(super) input: String,
-    pub(super) first: f64,
-    pub(super) first_low: f64,
-    pub(super) first_high: f64,
-    pub(super) total: f64,
-    pub(super) total_low: f64,
-    pub(super) total_high: f64,
-    /// Points that all runs of which have the quantity, and those that were left out.
-    pub(super) points: usize,
-    pub(super) points_missing: usize,
+#[derive(Debug, Serialize)]
+pub struct SensitivityRecord {
+    /// The quantity.
+    pub quantity: String,
+    /// The input.
+    pub input: String,
+    /// First-order index [-].
+    pub first: f64,
+    /// The lower end of its 95 % interval.
+    pub first_low: f64,
+    /// The upper end.
+    pub first_high: f64,
+    /// Total index [-].
+    pub total: f64,
+    /// The lower end of its 95 % interval.
+    pub total_low: f64,
+    /// The upper end.
+    pub total_high: f64,
+    /// Points that all runs of which have the quantity.
+    pub points: usize,
+    /// Points that were left out.
+    pub points_missing: usize,
 }
 
 /// Statistics of the first runs.
-#[derive(Serialize)]
-pub(super) struct ConvergenceRecord {
-    pub(super) quantity: String,
-    pub(super) runs: usize,
-    pub(super) mean: Option<f64>,
-    pub(super) mean_low: Option<f64>,
-    pub(super) mean_high: Option<f64>,
-    pub(super) p50: Option<f64>,
-    pub(super) p50_low: Option<f64>,
-    pub(super) p50_high: Option<f64>,
+#[derive(Debug, Serialize)]
+pub struct ConvergenceRecord {
+    /// The quantity.
+    pub quantity: String,
+    /// Of how many.
+    pub runs: usize,
+    /// Their mean.
+    pub mean: Option<f64>,
+    /// The lower end of its 95 % interval.
+    pub mean_low: Option<f64>,
+    /// The upper end.
+    pub mean_high: Option<f64>,
+    /// Their median.
+    pub p50: Option<f64>,
+    /// The lower end of its 95 % interval.
+    pub p50_low: Option<f64>,
+    /// The upper end.
+    pub p50_high: Option<f64>,
 }
 
 /// A quantity's distribution: what share of the runs is below.
-pub(super) struct Curve {
-    pub(super) quantity: String,
-    pub(super) unit: Option<&'static str>,
-    pub(super) points: Vec<(f64, f64)>,
+#[derive(Debug)]
+pub struct Curve {
+    /// The quantity.
+    pub quantity: String,
+    /// Its unit.
+    pub unit: Option<&'static str>,
+    /// The quantity, and the share of the runs below it.
+    pub points: Vec<(f64, f64)>,
 }
 
 /// A table for people.
-pub(super) struct Table {
-    pub(super) caption: &'static str,
-    pub(super) header: Vec<String>,
-    pub(super) cells: Vec<Vec<String>>,
+#[derive(Debug)]
+pub struct Table {
+    /// What the rows are.
+    pub caption: &'static str,
+    /// The columns.
+    pub header: Vec<String>,
+    /// Row by row.
+    pub cells: Vec<Vec<String>>,
 }
 
 impl Statistics {
-    /// Statistics of all runs of a campaign, with the digest of what was read. The library decides
-    /// which runs count for which of them.
-    pub(super) fn of(campaign: &Campaign, results: &Results) -> Result<(Self, Finished), Failure> {
+    /// Statistics of all runs of a campaign that are there, with the digest of what was read. The
+    /// library decides which runs count for which of them.
+    ///
+    /// # Errors
+    /// [`StoreError`] if a shard cannot be read, or none is there.
+    pub fn of(campaign: &Campaign, results: &Results) -> Result<(Self, Finished), StoreError> {
         let (frequencies, mut finished) = frequencies(campaign, results)?;
         let mut statistics = Self {
             rows: Vec::new(),
@@ -102,14 +139,14 @@ impl Statistics {
             curves: Vec::new(),
         };
         let manifest = results.manifest();
-        let runs: Vec<Range<u64>> =
-            manifest.own_shards().map(|shard| manifest.runs_of(shard)).collect();
+        let present = results.missing().others();
+        let runs: Vec<Range<u64>> = present.iter().map(|shard| manifest.runs_of(shard)).collect();
         let is_result =
             |column: &&Column| column.role == Role::Result && column.kind == ColumnKind::Float;
         let columns: Vec<&Column> = campaign.columns().iter().filter(is_result).collect();
         let (mut words, _) = results.columns(&["status"])?;
         let Some(Values::Text(statuses)) = words.pop() else {
-            unreachable!("every campaign has statuses")
+            return Err(StoreError::NoColumn("status".to_owned()));
         };
         for batch in columns.chunks(columns_at_once(&runs)) {
             let names: Vec<&str> = batch.iter().map(|column| column.name.as_str()).collect();
@@ -143,8 +180,25 @@ impl Statistics {
         self.curves.extend(curve(column, samples.filter_map(|(_, value)| *value).collect()));
     }
 
+    /// The probability of failure, in a sentence.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let failure = self.probabilities.iter().find(|it| it.event.starts_with("failure"));
+        let Some(it) = failure else { return "There are no runs.".into() };
+        format!(
+            "{} of {} runs failed, that is, had no result or were not completed: {:.2} %, with 95 % \
+             confidence between {:.2} and {:.2} %.",
+            it.count,
+            it.runs,
+            1e2 * it.probability,
+            1e2 * it.probability_low,
+            1e2 * it.probability_high
+        )
+    }
+
     /// The tables for people.
-    pub(super) fn tables(&self) -> Vec<Table> {
+    #[must_use]
+    pub fn tables(&self) -> Vec<Table> {
         let mut tables = vec![self.quantities(), self.chances()];
         if !self.sensitivities.is_empty() {
             tables.push(self.shares());
@@ -300,7 +354,10 @@ fn sensitivities(
 }
 
 /// How often each status and outcome is, and each word about a leg, counted shard by shard.
-fn frequencies(campaign: &Campaign, results: &Results) -> Result<(Frequencies, Finished), Failure> {
+fn frequencies(
+    campaign: &Campaign,
+    results: &Results,
+) -> Result<(Frequencies, Finished), StoreError> {
     let has_outcome = campaign.columns().iter().any(|column| column.name == "outcome");
     let mut names = if has_outcome { vec!["status", "outcome"] } else { vec!["status"] };
     let of_legs = campaign.words_of_legs();

@@ -1,0 +1,267 @@
+//! `fit`: a soil that is calibrated on wheel tests, as `grouser calibrate` does it, with its
+//! progress.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use grouser::answers::AnswerError;
+use grouser::answers::validation::figures;
+use grouser::document::calibration::{
+    AimWords, STEPS, WheelFound, WheelProblem, samples_csv, sampling,
+};
+use grouser::document::checkpoint::fingerprint;
+use grouser::document::measurements::{self, Choice, Condition, Limits, Measurements};
+use grouser::document::{FitKey, SAMPLES_FILE, SoilFamily, json};
+use grouser::studies::calibration::{CalibrationError, Observer, PosteriorState, Work};
+use grouser_draw::Slide;
+use grouser_draw::chart::Drawable as _;
+use hyper::StatusCode;
+use serde_json::{Value, json};
+
+use super::command::CommandLine;
+use super::fields::AskedFields;
+use super::parts::{Stand, StandParts};
+use super::staged::refused;
+use crate::asked::{Question, Send};
+use crate::console::Console;
+use crate::progress::Progress;
+use crate::refusal::Refusal;
+use crate::runs::GoOn;
+
+/// What is asked where nothing is said of it, as the program has it.
+const TARGET: &str = "drawbar_pull_n:slip_ratio=0.2";
+const PROPOSED: usize = 3;
+const SLIPS: [f64; 6] = [-0.6, -0.3, 0.0, 0.3, 0.6, 0.9];
+const ANGLES: [f64; 4] = [0.0, 15.0, 30.0, 45.0];
+const USUAL_STEPS: u64 = 400;
+
+/// What is asked of a fit.
+struct FitAsked {
+    data: String,
+    conditions: Vec<Condition>,
+    stand: Stand,
+    measured: Measurements,
+    family: SoilFamily,
+    is_point: bool,
+    seed: u64,
+    steps: u64,
+    fingerprint: Value,
+    line: CommandLine,
+}
+
+pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
+    let fields = AskedFields::of(body)?;
+    let data = fields.text("data")?.ok_or_else(|| {
+        Refusal::of_key("data", "it must be a data set, or the path of a CSV file in the folder")
+    })?;
+    let keys = fields.texts("fit")?;
+    let given = fields.texts("where")?;
+    let is_point = fields.truth("point_fit")?;
+    let one = |all: Option<Vec<u64>>| all.and_then(|all| all.first().copied());
+    let steps = one(fields.counts("steps", &(STEPS.start..=STEPS.end - 1))?);
+    let seed = one(fields.counts("seed", &(0..=u64::MAX))?);
+    let parts = StandParts::of(&fields)?;
+    fields.finish()?;
+    let fit = parsed("fit", &keys, FitKey::parse)?;
+    let conditions = parsed("where", &given, Condition::parse)?;
+    let stand = parts.stands(&console.folder, false)?.into_iter().next();
+    let stand = stand.ok_or_else(|| refused(AnswerError::Empty("models")))?;
+    let rows = match measurements::Source::preset(&data) {
+        Some(rows) => rows,
+        None => measurements::Source::File(file(console, &data)?),
+    };
+    let limits = Limits::default();
+    let of_data =
+        |error: measurements::MeasurementError| Refusal::of_key("data", error.to_string());
+    let bytes = rows.bytes(limits).map_err(of_data)?;
+    let wheel = Some(parts.wheel().to_owned());
+    let choice = Choice { conditions: conditions.clone(), wheel, limits };
+    let measured = measurements::read_from(&data, &*bytes, &choice).map_err(of_data)?;
+    let family = SoilFamily::new(&stand.soil.document, &fit);
+    let family = family.map_err(|problem| Refusal::of_key("fit", problem))?;
+    let mut line = CommandLine::new("calibrate");
+    line.option("data", &data);
+    parts.add_words(&mut line);
+    line.option("fit", &keys.join(","));
+    for condition in &given {
+        line.option("where", condition);
+    }
+    if is_point {
+        line.flag("point-fit");
+    }
+    line.maybe("steps", steps.map(|it| it.to_string()).as_deref());
+    line.maybe("seed", seed.map(|it| it.to_string()).as_deref());
+    let (seed, steps) = (seed.unwrap_or(1), steps.unwrap_or(USUAL_STEPS));
+    let fingerprint = json!(fingerprint(&bytes));
+    let asked = FitAsked {
+        data,
+        conditions,
+        stand,
+        measured,
+        family,
+        is_point,
+        seed,
+        steps,
+        fingerprint,
+        line,
+    };
+    Ok(Question::new(move |go_on, send| {
+        let go_on = go_on.of_study();
+        let turn = go_on.turn().ok_or_else(|| refused(AnswerError::Stopped))?;
+        let found = asked.found(&go_on, send)?;
+        drop(turn);
+        asked.tell(&found, send);
+        Ok(())
+    }))
+}
+
+/// A file of measurements in the folder.
+fn file(console: &Console, name: &str) -> Result<PathBuf, Refusal> {
+    console.folder.find_map(name).map_err(|problem| Refusal::of_key("data", problem.to_string()))
+}
+
+fn parsed<T>(
+    key: &str,
+    words: &[String],
+    parse: fn(&str) -> Result<T, String>,
+) -> Result<Vec<T>, Refusal> {
+    let each = words.iter().map(|word| parse(word));
+    each.collect::<Result<_, _>>().map_err(|problem| Refusal::of_key(key, problem))
+}
+
+impl FitAsked {
+    fn found(&self, go_on: &GoOn, send: Send<'_>) -> Result<WheelFound, Refusal> {
+        let aim = AimWords {
+            target: TARGET.to_owned(),
+            propose: PROPOSED,
+            load_n: None,
+            slip_ratio: SLIPS.to_vec(),
+            slip_angle_deg: ANGLES.to_vec(),
+        };
+        let aim = aim.aim(&self.measured.tests.trials);
+        let name = Path::new(&self.data).file_name().map(|it| it.to_string_lossy());
+        let problem = WheelProblem {
+            family: &self.family,
+            measured: &self.measured,
+            file: &name.unwrap_or_default(),
+            wheel: self.stand.wheel.value,
+            model: self.stand.model(),
+            gravity: self.stand.gravity,
+            sampling: (!self.is_point).then(|| sampling(self.seed, self.steps, None)),
+            aim: aim.map_err(|error| Refusal::of_key("data", error.to_string()))?,
+            cross_validate: false,
+        };
+        let watched = Watched { go_on, send, counted: Mutex::default() };
+        problem.solve(&watched).map_err(|error| match error {
+            CalibrationError::Interrupted => refused(AnswerError::Stopped),
+            error => Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
+        })
+    }
+
+    /// Sends what was found, as `grouser calibrate --format json` prints it, and what is shown.
+    fn tell(&self, found: &WheelFound, send: Send<'_>) {
+        let Self { stand, family, .. } = self;
+        let conditions: Vec<String> = self.conditions.iter().map(ToString::to_string).collect();
+        let keys = family.parameters().iter();
+        let fit = keys.map(|key| json!({"key": key.name, "from": key.lower, "to": key.upper}));
+        let mut answer = json!({
+            "schema": "grouser.calibrate.v1",
+            "version": env!("CARGO_PKG_VERSION"),
+            "inputs": {
+                "data": self.data,
+                "data_fingerprint": self.fingerprint,
+                "where": conditions,
+                "fit": fit.collect::<Vec<_>>(),
+                "soil": stand.soil.document,
+                "wheel": stand.wheel.document,
+                "gravity_m_s2": stand.gravity,
+                "model": stand.model().name(),
+                "seed": self.seed,
+                "steps": self.steps,
+                "files": [self.measured.given],
+            },
+        });
+        if let (Some(own), Value::Object(more)) =
+            (answer.as_object_mut(), json!(found.results(TARGET)))
+        {
+            own.extend(more);
+        }
+        if !send(json::line(&answer)) {
+            return;
+        }
+        let solved = &found.solved;
+        let says = format!(
+            "{} trials in {} cells: {}",
+            self.measured.tests.trials.len(),
+            self.measured.tests.cells.len(),
+            solved.outcome()
+        );
+        let drawn = figures::all(&found.validation);
+        let whose = format!("{} on {}", stand.wheel.document.name(), stand.soil.document.name());
+        let slide = drawn.first().map(|it| {
+            let command = self.line.text().to_owned();
+            Slide::of_answer(&says, &it.chart.sheet(), &whose, command).to_svg()
+        });
+        let pictures =
+            drawn.iter().map(|it| json!({ "caption": it.caption, "svg": it.chart.to_svg() }));
+        let mut documents = json!({ "soil.toml": found.soil.to_toml() });
+        if let Some(samples) = samples_csv(family, solved) {
+            documents[SAMPLES_FILE] = samples.into();
+        }
+        let columns: Vec<String> = match json!(solved.records.first()) {
+            Value::Object(record) => record.keys().cloned().collect(),
+            _ => Vec::new(),
+        };
+        let sentences = [vec![says], solved.unidentifiable.clone(), found.notes()].concat();
+        send(json::line(&json!({
+            "schema": "grouser.shown.v1",
+            "command": self.line.text(),
+            "sentences": sentences,
+            "assumptions": stand.soil.assumptions,
+            "documents": documents,
+            "tables": [{
+                "caption": "What is fitted, with its 95 % interval",
+                "columns": columns,
+                "rows": solved.records,
+            }],
+            "figures": pictures.collect::<Vec<_>>(),
+            "slide": slide,
+        })));
+    }
+}
+
+/// Follows a fit.
+struct Watched<'w> {
+    go_on: &'w GoOn,
+    send: Send<'w>,
+    counted: Mutex<Option<Progress<'w>>>,
+}
+
+impl Watched<'_> {
+    fn count(&self) -> ControlFlow<()> {
+        let counted = self.counted.lock().unwrap_or_else(PoisonError::into_inner);
+        counted.iter().for_each(Progress::count);
+        if self.go_on.is_on() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}
+
+impl Observer for Watched<'_> {
+    fn begins(&self, work: Work) {
+        let (what, done, all) = match work {
+            Work::Searches(all) => ("searches of least squares", 0, Some(all as u64)),
+            Work::Blocks { done, all } => ("blocks of the posterior", done, Some(all)),
+            Work::LeavingOut => ("fits without a slip angle", 0, None),
+        };
+        let progress = Progress::new(self.send, what, done, all);
+        *self.counted.lock().unwrap_or_else(PoisonError::into_inner) = Some(progress);
+    }
+
+    fn searched(&self) -> ControlFlow<()> {
+        self.count()
+    }
+
+    fn walked(&self, _: &PosteriorState) -> ControlFlow<()> {
+        self.count()
+    }
+}

@@ -1,0 +1,58 @@
+//! Fits: a soil calibrated on the wheel tests of the folder, with its progress.
+
+use std::fs;
+
+use grouser_serve::Settings;
+use serde_json::json;
+
+use crate::served::Served;
+
+/// Simulated with a longitudinal shear modulus of 0.036 m.
+const TESTS: &str =
+    include_str!("../../../grouser/data/experiments/simulated-wheel-test/toyoura-20n.csv");
+
+#[test]
+fn a_soil_is_fitted_to_the_wheel_tests_of_the_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("tests.csv"), TESTS).unwrap();
+    let settings = Settings { folder: Some(folder.path().to_owned()), ..Settings::default() };
+    let server = Served::start(&settings);
+    let files = server.ask("GET", "/api/files", "", "").lines().remove(0);
+    assert_eq!(files["rows"], json!([{"kind": "measurements", "path": "tests.csv"}]));
+    let asked = json!({
+        "data": "tests.csv", "wheel": "hakuto", "soil": "toyoura", "where": ["slip_angle_deg=0"],
+        "set": {"soil.shear.longitudinal_m": 0.1}, "fit": ["soil.shear.longitudinal_m"], "steps": 200,
+    });
+    let lines = server.post("fit", &asked).lines();
+    let [progress @ .., answer, shown] = &lines[..] else { panic!("{lines:?}") };
+    let counted = |what: &str| progress.iter().any(|it| it["what"] == what);
+    assert!(counted("searches of least squares") && counted("blocks of the posterior"));
+    // As the guide to calibration has it.
+    let row = &answer["rows"][0];
+    assert_eq!((&row["key"], &row["start"]), (&json!("soil.shear.longitudinal_m"), &json!(0.1)));
+    let fit = row["fit"].as_f64().unwrap();
+    assert!((fit - 0.0358).abs() < 5e-5, "{row}");
+    assert!(row["p2_5"].as_f64().unwrap() < 0.036 && row["p97_5"].as_f64().unwrap() > 0.036);
+    assert_eq!(
+        shown["command"],
+        "grouser calibrate --data tests.csv --soil toyoura --wheel hakuto --set \
+         soil.shear.longitudinal_m=0.1 --fit soil.shear.longitudinal_m --where slip_angle_deg=0 \
+         --steps 200"
+    );
+    assert!(shown["documents"]["soil.toml"].as_str().unwrap().contains("tests.csv"));
+    assert!(shown["documents"]["soil-samples.csv"].is_string());
+    assert!(!shown["figures"].as_array().unwrap().is_empty());
+    assert_eq!(shown["tables"][0]["rows"].as_array().unwrap().len(), 1);
+    for (key, wrong) in [
+        ("data", json!({"data": "../tests.csv", "fit": ["soil.friction_angle_deg"]})),
+        ("data", json!({"data": "absent.csv", "fit": ["soil.friction_angle_deg"]})),
+        ("data", json!({"fit": ["soil.friction_angle_deg"]})),
+        ("fit", json!({"data": "tests.csv", "fit": ["friction_angle_deg"]})),
+        ("fit", json!({"data": "tests.csv", "fit": ["soil.nothing"]})),
+        ("where", json!({"data": "tests.csv", "fit": ["soil.friction_angle_deg"], "where": "a"})),
+    ] {
+        let reply = server.post("fit", &wrong);
+        assert_eq!(reply.status, 422, "{wrong}");
+        assert_eq!(reply.lines()[0]["key"], key, "{wrong}: {reply:?}");
+    }
+}
