@@ -53,6 +53,33 @@ pub(crate) const CHROMIUM: SystemTool = SystemTool {
     found: || browser().is_some(),
 };
 
+/// Debian's compiler of Rust, which has the sources of its standard library.
+pub(crate) const RUSTC: &str = "/usr/bin/rustc";
+
+/// What compiles for other processors, and runs that.
+pub(crate) const PROCESSORS: SystemTool = SystemTool {
+    name: "a compiler for other processors, or their emulators",
+    packages: &[
+        "rustc-web",
+        "rust-web-src",
+        "lld",
+        "wasi-libc",
+        "nodejs",
+        "qemu-user",
+        "gcc-aarch64-linux-gnu",
+        "libc6-dev-arm64-cross",
+        "gcc-riscv64-linux-gnu",
+        "libc6-dev-riscv64-cross",
+    ],
+    checks: "the digests by these",
+    found: || {
+        let programs = ["wasm-ld", "node", "qemu-aarch64", "qemu-riscv64"];
+        let compilers = ["aarch64-linux-gnu-gcc", "riscv64-linux-gnu-gcc"];
+        let has_source = std::path::Path::new("/usr/lib/rustlib/src/rust/library").exists();
+        has_source && programs.iter().chain(&compilers).all(|it| runs(it, &["--version"]))
+    },
+};
+
 /// The program of that browser; some systems name it otherwise.
 pub(crate) fn browser() -> Option<&'static str> {
     // The driver of browsers starts it by its path, as Linux has it.
@@ -64,6 +91,14 @@ impl SystemTool {
     /// Whether the system has it.
     pub(crate) fn is_here(self) -> bool {
         (self.found)()
+    }
+
+    /// The same, after installing what is missing on a machine of continuous integration.
+    pub(crate) fn is_here_or_installed(self) -> bool {
+        if !self.is_here() && is_ci(std::env::var("CI").ok().as_deref()) {
+            install([self].iter());
+        }
+        self.is_here()
     }
 
     /// What is missing, what that costs, and how to get it.
