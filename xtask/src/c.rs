@@ -49,7 +49,7 @@ struct Folders {
 /// Builds the library, and compiles, runs and compares all programs. What is not here is named and
 /// counts as skipped.
 pub(crate) fn check() -> Result<Count> {
-    build()?;
+    build("reference")?;
     let folders = Folders::new()?;
     let mut count = check_header()?;
     for language in &LANGUAGES {
@@ -61,12 +61,12 @@ pub(crate) fn check() -> Result<Count> {
     Ok(count)
 }
 
-/// Builds the library and its reference, beside the program, with which they share all that was
+/// Builds the library and an example, beside the program, with which they share all that was
 /// compiled: alone, they would choose other features of the libraries below, and compile all of them
 /// once more.
-pub(crate) fn build() -> Result<()> {
+pub(crate) fn build(example: &str) -> Result<()> {
     let mut cargo = workspace::linting_cargo();
-    cargo.args(["build", "-p", "grouser-c", "--lib", "--example", "reference"]);
+    cargo.args(["build", "-p", "grouser-c", "--lib", "--example", example]);
     cargo.args(["--bins", "-p", "grouser-cli", "-p", "grouser-bench"]);
     ensure!(cargo.status().context("cargo did not start")?.success(), "the library does not build");
     Ok(())

@@ -235,7 +235,7 @@ fn built(python: &Path) -> Result<Vec<(&'static str, PathBuf)>> {
     let engine = c::output(Command::new(python).args(["-c", find]))?;
     // The library for C is built beside the program.
     let program = workspace::build_program()?;
-    c::build()?;
+    c::build("reference")?;
     let plugin = c::mujoco_plugin(Path::new(engine.trim()))?;
     let plugin = plugin.map(|it| ("GROUSER_MUJOCO_PLUGIN", it));
     Ok([("GROUSER_PROGRAM", program)].into_iter().chain(plugin).collect())

@@ -53,30 +53,24 @@ pub(crate) const CHROMIUM: SystemTool = SystemTool {
     found: || browser().is_some(),
 };
 
-/// Debian's compiler of Rust, which has the sources of its standard library.
-pub(crate) const RUSTC: &str = "/usr/bin/rustc";
-
 /// What compiles for other processors, and runs that.
 pub(crate) const PROCESSORS: SystemTool = SystemTool {
-    name: "a compiler for other processors, or their emulators",
+    name: "what compiles for other processors, or an emulator,",
     packages: &[
         "rustc-web",
         "rust-web-src",
         "lld",
-        "wasi-libc",
         "nodejs",
         "qemu-user",
         "gcc-aarch64-linux-gnu",
-        "libc6-dev-arm64-cross",
         "gcc-riscv64-linux-gnu",
-        "libc6-dev-riscv64-cross",
     ],
     checks: "the digests by these",
     found: || {
-        let programs = ["wasm-ld", "node", "qemu-aarch64", "qemu-riscv64"];
-        let compilers = ["aarch64-linux-gnu-gcc", "riscv64-linux-gnu-gcc"];
+        let linkers = ["wasm-ld", "aarch64-linux-gnu-gcc", "riscv64-linux-gnu-gcc"];
+        let programs = ["node", "qemu-aarch64", "qemu-riscv64"];
         let has_source = std::path::Path::new("/usr/lib/rustlib/src/rust/library").exists();
-        has_source && programs.iter().chain(&compilers).all(|it| runs(it, &["--version"]))
+        has_source && linkers.iter().chain(&programs).all(|it| runs(it, &["--version"]))
     },
 };
 
@@ -97,6 +91,9 @@ impl SystemTool {
     pub(crate) fn is_here_or_installed(self) -> bool {
         if !self.is_here() && is_ci(std::env::var("CI").ok().as_deref()) {
             install([self].iter());
+        }
+        if !self.is_here() {
+            println!("{}", self.missing());
         }
         self.is_here()
     }

@@ -1,5 +1,5 @@
-/* Digests of ten thousand wheels, of a traverse and of a mission, as src/bin/hashes.rs of grouser-bench
- * makes them by the Rust library: FNV-1a with 64 bits over the bytes of the results, the least significant first.
+/* Digests of ten thousand wheels, of a traverse and of a mission, as examples/hashes.rs makes them by
+ * the Rust library: FNV-1a with 64 bits over the bytes of the results, the least significant first.
  */
 #include <inttypes.h>
 #include <stdio.h>

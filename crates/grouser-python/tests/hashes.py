@@ -1,4 +1,4 @@
-"""Prints the digests of `hashes tables` of `grouser-bench`, as another interface has them.
+"""Prints the digests of `hashes tables` in crates/grouser-c/examples, as another interface has them.
 
 ``hashes.py package`` asks the Python package, ``hashes.py program GROUSER`` the program, by its JSON,
 and ``hashes.py fmu GROUSER`` an FMU of the program, by FMPy. `cargo xtask hashes` compares them.
