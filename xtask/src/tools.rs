@@ -60,6 +60,7 @@ pub(crate) const PROCESSORS: SystemTool = SystemTool {
         "rustc-web",
         "rust-web-src",
         "lld",
+        "wasi-libc",
         "nodejs",
         "qemu-user",
         "gcc-aarch64-linux-gnu",
