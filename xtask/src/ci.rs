@@ -51,6 +51,7 @@ const STEPS: [Step; 25] = {
     const PACKED: &[&str] = &["Cargo", "crates/grouser-python", "xtask"];
     const OF_C: &[&str] =
         &["Cargo", "crates/grouser-c/", "crates/grouser-core", "crates/grouser-io", "xtask"];
+    const COMPUTES: &[&str] = &["Cargo", "crates/", "xtask"];
     const COUNTED: &[&str] = &["Cargo", "crates/grouser/", "crates/grouser-core", "xtask"];
     [
         step("tools", 1.0, Here(|_| Ok(tools::check()))),
@@ -73,9 +74,9 @@ const STEPS: [Step; 25] = {
         step("meaning", 60.0, Here(fuzz::meaning::check)),
         step("readers", 60.0, Here(|extent| fuzz::readers::check(fuzz::readers::Plan::of(extent)))),
         Step { asks: OF_C, ..step("c", 250.0, Here(|_| c::check())) },
-        Step { asks: OF_C, ..step("hashes", 15.0, Here(|_| hashes::check())) },
         Step { asks: PACKED, ..step("packages", 20.0, Here(packages::check)) },
         step("wheel", 60.0, Here(|_| python::installed().map(|_| Count::one(true)))),
+        Step { asks: COMPUTES, ..step("hashes", 25.0, Here(hashes::check)) },
         Step { asks: PAGES, ..step("site", 200.0, Beside(&["site", "--as-it-is"])) },
         Step { asks: COUNTED, ..step("instructions", 80.0, Beside(&["instructions", "--check"])) },
         step("python", 550.0, Here(python::check)),

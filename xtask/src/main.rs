@@ -28,6 +28,7 @@ mod markers;
 mod outputs;
 mod packages;
 mod pages;
+mod processors;
 mod python;
 mod requirements;
 mod rustdoc;
@@ -62,7 +63,8 @@ cargo xtask CHORE
   fuzz --meaning      logs that mean something else, for `learn`; writes the table of docs/guide/telemetry.md
   fuzz readers [--cases N] [--seed N] [--only N]
                       damaged files for every reader, in one process
-  hashes              compare digests of wheels, a traverse and a mission by each instruction set and by C
+  hashes              compare digests of wheels, a traverse, a mission and a card by each instruction set and
+                      interface, and by other processors where their tools are (minutes)
   instructions [--check]
                       count the instructions of the units of work anew (valgrind), or only compare
   packages [--full]   check the packages without publishing them; --full builds from them alone
@@ -129,7 +131,7 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
             println!("{count}");
             count.failed == 0
         }
-        ["hashes"] => good(hashes::check()?),
+        ["hashes"] => good(hashes::check(extent::Extent::Full)?),
         ["instructions"] => instructions::write()?,
         ["instructions", "--check"] => good(instructions::check()?),
         ["count"] => count::write()?,

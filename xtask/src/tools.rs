@@ -61,6 +61,28 @@ pub(crate) const NPM: SystemTool = SystemTool {
     found: || runs("npm", &["--version"]),
 };
 
+/// What compiles for other processors, and runs that.
+pub(crate) const PROCESSORS: SystemTool = SystemTool {
+    name: "what compiles for other processors, or an emulator,",
+    packages: &[
+        "rustc-web",
+        "rust-web-src",
+        "lld",
+        "wasi-libc",
+        "nodejs",
+        "qemu-user",
+        "gcc-aarch64-linux-gnu",
+        "gcc-riscv64-linux-gnu",
+    ],
+    checks: "the digests by these",
+    found: || {
+        let linkers = ["wasm-ld", "aarch64-linux-gnu-gcc", "riscv64-linux-gnu-gcc"];
+        let programs = ["node", "qemu-aarch64", "qemu-riscv64"];
+        let has_source = std::path::Path::new("/usr/lib/rustlib/src/rust/library").exists();
+        has_source && linkers.iter().chain(&programs).all(|it| runs(it, &["--version"]))
+    },
+};
+
 /// The program of that browser; some systems name it otherwise.
 pub(crate) fn browser() -> Option<&'static str> {
     // The driver of browsers starts it by its path, as Linux has it.
@@ -72,6 +94,17 @@ impl SystemTool {
     /// Whether the system has it.
     pub(crate) fn is_here(self) -> bool {
         (self.found)()
+    }
+
+    /// The same, after installing what is missing on a machine of continuous integration.
+    pub(crate) fn is_here_or_installed(self) -> bool {
+        if !self.is_here() && is_ci(std::env::var("CI").ok().as_deref()) {
+            install([self].iter());
+        }
+        if !self.is_here() {
+            println!("{}", self.missing());
+        }
+        self.is_here()
     }
 
     /// What is missing, what that costs, and how to get it.

@@ -142,7 +142,7 @@ pub(crate) fn write_text(room: &mut [MaybeUninit<c_char>], text: &str) -> Result
         return Err(Failure::new(Status::WrongSize, text));
     }
     for (place, byte) in room.iter_mut().zip(text.bytes().chain([0])) {
-        place.write(byte.cast_signed());
+        place.write(c_char::from_ne_bytes([byte]));
     }
     Ok(())
 }
