@@ -30,7 +30,41 @@ _HELD = tuple(name for name in _tables.COLUMNS["heading"] if name != "power_w")
 
 
 @dataclass(frozen=True, eq=False)
-class Headings(_tables.Tabular):
+class _Held:
+    """What rovers have that hold a course."""
+
+    status: NDArray[np.object_]
+    """``ok``, or why no yaw holds the course; of an entry without a result, why."""
+    flags: NDArray[np.object_]
+    """Why each entry is an extrapolation: names of `FLAGS`, joined by ``;``."""
+    yaw_deg: Floats
+    """Yaw that holds the course [°], positive uphill."""
+    slip_ratio: Floats
+    """Slip ratio of every wheel; with wheels steered, of these [-]."""
+    sinkage_mm: Floats
+    """Mean sinkage of the wheels [mm]."""
+    torque_nm: Floats
+    """Torque of all wheels together [N·m]."""
+    energy_j_per_m: Floats
+    """Work of the wheels per metre along the course [J/m]."""
+    yaw_moment_nm: Floats
+    """Yaw moment left over [N·m]; negative turns the nose downhill."""
+
+
+@dataclass(frozen=True, eq=False)
+class _HeldTo(_Held):
+    """The same, each entry with where its curve ends."""
+
+    limit_slope_deg: Floats
+    """The steepest slope on which the course can be held [°], the same for entries that differ in their
+    slopes alone; NaN where the rover cannot move."""
+    limited_by: NDArray[np.object_]
+    """What ends the curve there: ``wheels``, ``ground-strength``, ``range`` or ``not-found``, as in
+    `Headings`; None where the rover cannot move."""
+
+
+@dataclass(frozen=True, eq=False)
+class Headings(_Held, _tables.Tabular):
     """Heading offsets that hold the contour line, and whether to drive by them: arrays of shape
     (slopes,), NaN where there is no number.
 
@@ -61,25 +95,11 @@ class Headings(_tables.Tabular):
     """The same in a word: ``wheels``; ``ground-strength``, where the ground itself would slide;
     ``range``, of the slopes; or ``not-found``, where the search gave up and nothing is known of
     steeper slopes; None where the rover cannot move."""
-    status: NDArray[np.object_]
-    """Of each slope: ``ok``, or why no heading offset holds the contour on the soil as written."""
-    flags: NDArray[np.object_]
-    """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``."""
     slope_deg: Floats
     """Slopes [°]."""
     yaw_deg: Floats
     """Yaw that holds the course [°], positive uphill: the heading to set, which is the median over
     all samples. NaN where no heading holds the course in half of them."""
-    slip_ratio: Floats
-    """Slip ratio of every wheel; with wheels steered, of these [-]."""
-    sinkage_mm: Floats
-    """Mean sinkage of the wheels [mm]."""
-    torque_nm: Floats
-    """Torque of all wheels together [N·m]."""
-    energy_j_per_m: Floats
-    """Work of the wheels per metre along the course [J/m]."""
-    yaw_moment_nm: Floats
-    """Yaw moment left over [N·m]; negative turns the nose downhill."""
     columns: Mapping[str, NDArray[Any]]
     """All columns, by the names of the program's table."""
     steering_deg: Floats | Any = None
@@ -156,7 +176,7 @@ class Headings(_tables.Tabular):
 
 
 @dataclass(frozen=True, eq=False)
-class HeadingSweep(_tables.Entries):
+class HeadingSweep(_HeldTo, _tables.Entries):
     """Heading offsets that hold the contour line for many rovers, soils and slopes: arrays of the shape
     to which slopes and varied numbers broadcast, NaN where no heading holds the contour.
 
@@ -173,26 +193,6 @@ class HeadingSweep(_tables.Entries):
     True
     """
 
-    status: NDArray[np.object_]
-    """``ok``, or why no heading offset holds the contour; of an entry without a result, why."""
-    flags: NDArray[np.object_]
-    """Why each entry is an extrapolation: names of `FLAGS`, joined by ``;``."""
-    yaw_deg: Floats
-    """Yaw that holds the contour [°], positive uphill."""
-    slip_ratio: Floats
-    """Slip ratio of every wheel; with wheels steered, of these [-]."""
-    sinkage_mm: Floats
-    """Mean sinkage of the wheels [mm]."""
-    torque_nm: Floats
-    """Torque of all wheels together [N·m]."""
-    energy_j_per_m: Floats
-    """Work of the wheels per metre along the contour [J/m]."""
-    yaw_moment_nm: Floats
-    """Yaw moment left over [N·m]; negative turns the nose downhill."""
-    limit_slope_deg: Floats
-    """The steepest slope on which the contour can be held [°]; NaN where the rover cannot move."""
-    limited_by: NDArray[np.object_]
-    """What ends the curve there, as in `Headings`; None where the rover cannot move."""
     steering_deg: Floats | Any = None
     """Steering angle of every wheel that is steered [°], positive uphill; None without
     ``steering="crab"``."""
@@ -457,7 +457,7 @@ def _sweep(
 
 
 @dataclass(frozen=True, eq=False)
-class HeadingMap(_tables.Tabular):
+class HeadingMap(_HeldTo, _tables.Tabular):
     """Heading offsets over soil, course and slope: arrays of shape (soils, courses, slopes), NaN
     where no yaw holds the course.
 
@@ -476,29 +476,8 @@ class HeadingMap(_tables.Tabular):
     """Directions of travel from the contour [°], positive uphill; shape (courses,)."""
     slope_deg: Floats
     """Slopes [°]; shape (slopes,)."""
-    status: NDArray[np.object_]
-    """``ok``, or why no yaw holds the course; shape (soils, courses, slopes)."""
-    flags: NDArray[np.object_]
-    """Why each row is an extrapolation: names of `FLAGS`, joined by ``;``; the same shape."""
-    yaw_deg: Floats
-    """Yaw that holds the course [°], positive uphill."""
-    slip_ratio: Floats
-    """Slip ratio of every wheel; with wheels steered, of these [-]."""
-    sinkage_mm: Floats
-    """Mean sinkage of the wheels [mm]."""
-    torque_nm: Floats
-    """Torque of all wheels together [N·m]."""
-    energy_j_per_m: Floats
-    """Work of the wheels per metre along the course [J/m]."""
-    yaw_moment_nm: Floats
-    """Yaw moment left over [N·m]; negative turns the nose downhill."""
     power_w: Floats
     """Power of the motors at the rim speed of the map [W]."""
-    limit_slope_deg: Floats
-    """The steepest slope of the soil and course [°], the same on every slope."""
-    limited_by: NDArray[np.object_]
-    """What ends the curve there: ``wheels``, ``ground-strength``, ``range`` or
-    ``not-found``, as in `Headings`."""
     band: HeadingMapBand | Any = None
     """The same over samples of soil and model, with ``uncertainty=True``; else None."""
 
