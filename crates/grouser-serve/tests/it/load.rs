@@ -100,6 +100,12 @@ fn memory(which: &str) -> u64 {
     kib.and_then(|kib| kib.parse::<u64>().ok()).unwrap_or(0) >> 10
 }
 
+/// How much this process has computed [hundredths of a second].
+fn computed() -> u64 {
+    let status = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    status.split(' ').skip(13).take(2).filter_map(|ticks| ticks.parse::<u64>().ok()).sum()
+}
+
 /// One of those who mean harm, again and again.
 fn harm(server: &Served, round: usize, secret: &Path) {
     let (own, token) = (format!("127.0.0.1:{}", server.port), &server.token);
@@ -237,6 +243,11 @@ fn many_move_sliders_while_others_mean_harm() {
         assert!(Instant::now() < until, "no place became free");
         thread::sleep(Duration::from_millis(50));
     }
+    // Nothing goes on for those who have gone.
+    let before = computed();
+    thread::sleep(Duration::from_secs(2));
+    let idle = computed() - before;
+    assert!(idle < 20, "the server computes {idle} hundredths of a second for nobody");
     let after = Times::default();
     (0..20).for_each(|place| after.slide(&server, place, None));
     after.report("one client afterwards");
