@@ -27,7 +27,7 @@ pub(crate) const PROCESSORS: [Processor; 3] = [
         target: "wasm32-wasip1",
         linker: "wasm-ld",
         // Debian's library for WebAssembly is older than the compiler, and lacks what only files need.
-        options: "-Lnative=/usr/lib/wasm32-wasi -Clink-arg=--unresolved-symbols=ignore-all",
+        options: "-Lnative=/usr/lib/wasm32-wasi -Clink-arg=--allow-undefined",
         emulator: &["node", "--no-warnings", "--eval", WASI],
         suffix: ".wasm",
     },

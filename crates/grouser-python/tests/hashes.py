@@ -60,7 +60,7 @@ def to_steepest(columns: Mapping[str, Any]) -> dict[str, Any]:
     return {name: np.asarray(column, dtype=object)[kept] for name, column in columns.items()}
 
 
-def package() -> None:
+def package(_: str) -> None:
     """The arrays of the Python package."""
     import grouser as gr
 
