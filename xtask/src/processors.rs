@@ -26,7 +26,6 @@ pub(crate) const PROCESSORS: [Processor; 3] = [
         name: "WebAssembly under node",
         target: "wasm32-wasip1",
         linker: "wasm-ld",
-        // Debian's library for WebAssembly is older than the compiler, and lacks what only files need.
         options: "-Lnative=/usr/lib/wasm32-wasi -Clink-arg=--allow-undefined",
         emulator: &["node", "--no-warnings", "--eval", WASI],
         suffix: ".wasm",
@@ -49,10 +48,14 @@ pub(crate) const PROCESSORS: [Processor; 3] = [
     },
 ];
 
-/// What gives a program of WebAssembly its standard output.
+/// What gives a program of WebAssembly its standard output, and what Debian's library lacks, which is
+/// older than the compiler: paths are not resolved, and threads not supported (error 58).
 const WASI: &str = "\
 const wasi = new (require('wasi').WASI)({ version: 'preview1', args: ['hashes'] });
-WebAssembly.instantiate(require('fs').readFileSync(process.argv[1]), wasi.getImportObject())
+const zero = () => 0, env = { realpath: zero, pthread_create: () => 58, pthread_detach: zero };
+for (const name of ['init', 'setstacksize', 'destroy']) env[`pthread_attr_${name}`] = zero;
+const program = require('fs').readFileSync(process.argv[1]);
+WebAssembly.instantiate(program, { ...wasi.getImportObject(), env })
   .then(({ instance }) => wasi.start(instance));";
 
 impl Processor {
