@@ -55,6 +55,7 @@ __all__ = [
     "heading",
     "heading_map",
     "heading_map_band",
+    "heading_sweep",
     "import_telemetry",
     "import_wheel_tests",
     "meant_keys",
