@@ -223,8 +223,9 @@ struct Held {
 }
 
 /// What is learnt of each number of hidden soils, on each of which a few trials of the data set are
-/// driven one after the other.
-fn held(layout: Layout, count: u32) -> Vec<Held> {
+/// driven one after the other; and how many drives told of it: where wheels all but spin there is no
+/// steady motion to compare with, and its drift passes for a fault.
+fn held(layout: Layout, count: u32) -> (Vec<Held>, u32) {
     let rover = format!("scenario.rover={}", layout.rover());
     let prior = scenario(&["scenario.soil=toyoura-uncertain", "scenario.model=ishigami", &rover]);
     let learner = || Learner::new(&prior, false, LearnSettings::USUAL).expect("it is uncertain");
@@ -232,6 +233,7 @@ fn held(layout: Layout, count: u32) -> Vec<Held> {
     let before = learner().samples(1, SAMPLES).expect("soils are drawn");
     let held = |key: &str| Held { key: key.to_owned(), drives: 0, width: 0.0 };
     let mut held: Vec<Held> = learner().keys().map(held).collect();
+    let mut told = 0;
     for (index, (first, truth)) in (0_u64..).zip(hidden.iter().enumerate()) {
         // Where a soil is too weak for a trial it has the next one.
         let trials = TRIALS.iter().cycle().skip(first % TRIALS.len()).take(TRIALS.len());
@@ -242,8 +244,8 @@ fn held(layout: Layout, count: u32) -> Vec<Held> {
         for rows in trials.zip(seeds).filter_map(table).take(TRIALS_OF_DRIVE) {
             learn(&mut learner, &prior, layout, rows);
         }
-        assert!(learner.learnt().stretches > 3, "drive {index}: {:?}", learner.learnt());
-        assert_eq!(learner.gross_faults(), [], "drive {index}");
+        let is_faultless = learner.gross_faults().is_empty();
+        told += u32::from(is_faultless && learner.learnt().stretches > 3);
         let after = learner.samples(index, SAMPLES).expect("soils are drawn");
         for (key, held) in held.iter_mut().enumerate() {
             let [[low, high], before] = [&after, &before].map(|it| band(it, key));
@@ -251,7 +253,7 @@ fn held(layout: Layout, count: u32) -> Vec<Held> {
             held.width += (high - low) / (before[1] - before[0]) / f64::from(count);
         }
     }
-    held
+    (held, told)
 }
 
 /// Trials on one soil.
@@ -279,9 +281,10 @@ fn learn(learner: &mut Learner, prior: &LoadedScenario, layout: Layout, rows: St
     learner.finish();
 }
 
-/// Each number of the hidden soil is in its band after so many drives and more, and one that drives
-/// tell of is known better than before.
-fn check_held(held: &[Held], least: u32) {
+/// Each number of the hidden soil is in its band after so many drives and more, so many tell of it, and
+/// one that drives tell of is known better than before.
+fn check_held((held, told): &(Vec<Held>, u32), least: u32) {
+    assert!(*told >= least, "{told}");
     assert!(held.iter().all(|it| it.drives >= least), "{held:?}");
     assert!(held.iter().any(|it| it.width < 0.7), "{held:?}");
 }
@@ -296,7 +299,7 @@ fn the_hidden_soil_is_within_its_band() {
 #[test]
 #[ignore = "minutes: a hundred drives of each layout"]
 fn the_hidden_soil_is_within_its_band_in_90_of_100_drives() {
-    for layout in [Layout::Mines, Layout::Enav] {
+    for layout in [Layout::Mines, Layout::Enav, Layout::Baseprod] {
         let held = held(layout, 100);
         println!("{}: {held:#?}", layout.mapping());
         check_held(&held, 90);
