@@ -65,11 +65,10 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileProblem> {
 }
 
 /// [`read`], of a file that has to be in a folder, if one is given.
-pub(crate) fn read_in(
-    path: &Path,
-    within: Option<&Path>,
-    limit: u64,
-) -> Result<Vec<u8>, FileProblem> {
+///
+/// # Errors
+/// The same as [`read`], and [`FileProblem`] for one that is not in the folder.
+pub fn read_in(path: &Path, within: Option<&Path>, limit: u64) -> Result<Vec<u8>, FileProblem> {
     let file = open_in(path, within)?;
     let mut bytes = Vec::new();
     // One byte more than allowed distinguishes a file that is too large from one that just fits,

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use grouser::document::file::{FileProblem, confined_map, opener};
+use grouser::document::file::{self, FileProblem, confined_map, opener};
 use grouser::document::{self, Beside, DocumentError, Kind, Overrides, Source};
 
 /// The folder of documents, or none.
@@ -77,6 +77,13 @@ impl ServedFolder {
     /// The path of a map, or of areas, which lies in the folder with all that is read with it.
     pub(crate) fn find_map(&self, name: &str) -> Result<PathBuf, FileProblem> {
         confined_map(Path::new(name), self.within())
+    }
+
+    /// Reads a file of the folder, and none outside of it.
+    ///
+    /// * `limit`: how many bytes it may have
+    pub(crate) fn read(&self, path: &Path, limit: u64) -> Result<Vec<u8>, FileProblem> {
+        file::read_in(path, Some(self.within()), limit)
     }
 
     /// Opens a file of the folder, and none outside of it.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::builder::NonEmptyStringValueParser;
 use clap::{Arg, ArgGroup, Args, ValueEnum};
 use grouser::document::FitKey;
-use grouser::document::calibration::STEPS;
+use grouser::document::calibration::{AimWords, STEPS, USUAL_STEPS};
 use grouser::document::measurements::{Condition, Limits, Mapping};
 
 use super::{OutputArgs, SettingArgs, TelemetryArgs};
@@ -138,7 +138,7 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
     /// Steps of each walker of the posterior.
-    #[arg(long, default_value_t = 400, value_parser = clap::value_parser!(u64).range(STEPS))]
+    #[arg(long, default_value_t = USUAL_STEPS, value_parser = clap::value_parser!(u64).range(STEPS))]
     pub(crate) steps: u64,
     /// Least squares only, without a posterior.
     #[arg(long)]
@@ -148,14 +148,10 @@ pub(crate) struct CalibrateArgs {
     pub(crate) cross_validate: bool,
     /// The prediction whose uncertainty the proposed runs should reduce most, such as
     /// `side_force_n:load_n=17,slip_ratio=0.2,slip_angle_deg=15`.
-    #[arg(
-        long,
-        value_name = "QUANTITY[:SETTINGS]",
-        default_value = "drawbar_pull_n:slip_ratio=0.2"
-    )]
+    #[arg(long, value_name = "QUANTITY[:SETTINGS]", default_value = AimWords::USUAL_TARGET)]
     pub(crate) target: String,
     /// Number of runs to propose.
-    #[arg(long, value_name = "N", default_value_t = 3)]
+    #[arg(long, value_name = "N", default_value_t = AimWords::USUAL_PROPOSALS)]
     pub(crate) propose: usize,
     /// Loads that the stand can run [N]; without it half, once and twice the tests' own.
     #[arg(long, value_name = "LIST", value_parser = list::parse, requires = "data", allow_hyphen_values = true)]

@@ -1,16 +1,16 @@
 //! `fit`: a soil that is calibrated on wheel tests, as `grouser calibrate` does it, with its
 //! progress.
 
+use std::borrow::Cow;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
 use grouser::answers::AnswerError;
 use grouser::answers::validation::figures;
 use grouser::document::calibration::{
-    AimWords, STEPS, WheelFound, WheelProblem, samples_csv, sampling,
+    AimWords, STEPS, USUAL_STEPS, WheelFound, WheelInputs, WheelProblem, samples_csv, sampling,
 };
-use grouser::document::checkpoint::fingerprint;
 use grouser::document::measurements::{self, Choice, Condition, Limits, Measurements};
 use grouser::document::{FitKey, SAMPLES_FILE, SoilFamily, json};
 use grouser::studies::calibration::{CalibrationError, Observer, PosteriorState, Work};
@@ -29,24 +29,16 @@ use crate::progress::Progress;
 use crate::refusal::Refusal;
 use crate::runs::GoOn;
 
-/// What is asked where nothing is said of it, as the program has it.
-const TARGET: &str = "drawbar_pull_n:slip_ratio=0.2";
-const PROPOSED: usize = 3;
-const SLIPS: [f64; 6] = [-0.6, -0.3, 0.0, 0.3, 0.6, 0.9];
-const ANGLES: [f64; 4] = [0.0, 15.0, 30.0, 45.0];
-const USUAL_STEPS: u64 = 400;
-
 /// What is asked of a fit.
 struct FitAsked {
     data: String,
-    conditions: Vec<Condition>,
     stand: Stand,
     measured: Measurements,
     family: SoilFamily,
     is_point: bool,
     seed: u64,
     steps: u64,
-    fingerprint: Value,
+    inputs: Value,
     line: CommandLine,
 }
 
@@ -67,14 +59,14 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let conditions = parsed("where", &given, Condition::parse)?;
     let stand = parts.stands(&console.folder, false)?.into_iter().next();
     let stand = stand.ok_or_else(|| refused(AnswerError::Empty("models")))?;
-    let rows = match measurements::Source::preset(&data) {
-        Some(rows) => rows,
-        None => measurements::Source::File(file(console, &data)?),
-    };
     let limits = Limits::default();
     let of_data =
         |error: measurements::MeasurementError| Refusal::of_key("data", error.to_string());
-    let bytes = rows.bytes(limits).map_err(of_data)?;
+    let preset = measurements::Source::preset(&data);
+    let bytes = match &preset {
+        Some(rows) => rows.bytes(limits).map_err(of_data)?,
+        None => Cow::Owned(file(console, &data, limits)?),
+    };
     let wheel = Some(parts.wheel().to_owned());
     let choice = Choice { conditions: conditions.clone(), wheel, limits };
     let measured = measurements::read_from(&data, &*bytes, &choice).map_err(of_data)?;
@@ -93,19 +85,21 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     line.maybe("steps", steps.map(|it| it.to_string()).as_deref());
     line.maybe("seed", seed.map(|it| it.to_string()).as_deref());
     let (seed, steps) = (seed.unwrap_or(1), steps.unwrap_or(USUAL_STEPS));
-    let fingerprint = json!(fingerprint(&bytes));
-    let asked = FitAsked {
-        data,
-        conditions,
-        stand,
-        measured,
-        family,
-        is_point,
+    let mut inputs = WheelInputs {
+        data: &data,
+        bytes: &bytes,
+        conditions: &conditions,
+        family: &family,
+        soil: &stand.soil.document,
+        wheel: &stand.wheel.document,
+        gravity: stand.gravity,
+        model: &stand.model(),
         seed,
         steps,
-        fingerprint,
-        line,
-    };
+    }
+    .to_json();
+    inputs["files"] = json!([measured.given]);
+    let asked = FitAsked { data, stand, measured, family, is_point, seed, steps, inputs, line };
     Ok(Question::new(move |go_on, send| {
         let go_on = go_on.of_study();
         let turn = go_on.turn().ok_or_else(|| refused(AnswerError::Stopped))?;
@@ -116,9 +110,11 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     }))
 }
 
-/// A file of measurements in the folder.
-fn file(console: &Console, name: &str) -> Result<PathBuf, Refusal> {
-    console.folder.find_map(name).map_err(|problem| Refusal::of_key("data", problem.to_string()))
+/// The bytes of a file of measurements in the folder.
+fn file(console: &Console, name: &str, limits: Limits) -> Result<Vec<u8>, Refusal> {
+    let folder = &console.folder;
+    let bytes = folder.find_map(name).and_then(|path| folder.read(&path, limits.bytes()));
+    bytes.map_err(|problem| Refusal::of_key("data", problem.to_string()))
 }
 
 fn parsed<T>(
@@ -132,14 +128,7 @@ fn parsed<T>(
 
 impl FitAsked {
     fn found(&self, go_on: &GoOn, send: Send<'_>) -> Result<WheelFound, Refusal> {
-        let aim = AimWords {
-            target: TARGET.to_owned(),
-            propose: PROPOSED,
-            load_n: None,
-            slip_ratio: SLIPS.to_vec(),
-            slip_angle_deg: ANGLES.to_vec(),
-        };
-        let aim = aim.aim(&self.measured.tests.trials);
+        let aim = AimWords::default().aim(&self.measured.tests.trials);
         let name = Path::new(&self.data).file_name().map(|it| it.to_string_lossy());
         let problem = WheelProblem {
             family: &self.family,
@@ -162,28 +151,13 @@ impl FitAsked {
     /// Sends what was found, as `grouser calibrate --format json` prints it, and what is shown.
     fn tell(&self, found: &WheelFound, send: Send<'_>) {
         let Self { stand, family, .. } = self;
-        let conditions: Vec<String> = self.conditions.iter().map(ToString::to_string).collect();
-        let keys = family.parameters().iter();
-        let fit = keys.map(|key| json!({"key": key.name, "from": key.lower, "to": key.upper}));
         let mut answer = json!({
             "schema": "grouser.calibrate.v1",
             "version": env!("CARGO_PKG_VERSION"),
-            "inputs": {
-                "data": self.data,
-                "data_fingerprint": self.fingerprint,
-                "where": conditions,
-                "fit": fit.collect::<Vec<_>>(),
-                "soil": stand.soil.document,
-                "wheel": stand.wheel.document,
-                "gravity_m_s2": stand.gravity,
-                "model": stand.model().name(),
-                "seed": self.seed,
-                "steps": self.steps,
-                "files": [self.measured.given],
-            },
+            "inputs": self.inputs,
         });
         if let (Some(own), Value::Object(more)) =
-            (answer.as_object_mut(), json!(found.results(TARGET)))
+            (answer.as_object_mut(), json!(found.results(AimWords::USUAL_TARGET)))
         {
             own.extend(more);
         }

@@ -16,9 +16,9 @@ pub use bevameter::{
 pub use handed_on::samples_csv;
 pub use left_out::{CoverageRecord, LeftOutRecord};
 pub use solved::{
-    DiscrepancyRecord, LengthRecord, STEPS, SamplerRecord, Solved, fit_notes, sampling,
+    DiscrepancyRecord, LengthRecord, STEPS, SamplerRecord, Solved, USUAL_STEPS, fit_notes, sampling,
 };
-pub use wheel::{WheelFound, WheelProblem, WheelResults};
+pub use wheel::{WheelFound, WheelInputs, WheelProblem, WheelResults};
 
 use super::columns::fit::column_of;
 use crate::studies::calibration::design::{Proposal, Setting};

@@ -1,12 +1,9 @@
 //! Calibration on wheel tests.
 
-use std::path::Path;
-
-use grouser::document::calibration::{WheelFound, WheelProblem};
-use grouser::document::checkpoint::fingerprint;
+use grouser::document::calibration::{WheelFound, WheelInputs, WheelProblem};
 use grouser::document::measurements::{self, Choice, Measurements};
 use grouser::document::{SoilFamily, to_toml};
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::super::{Answer, add_files};
 use super::checkpoint::{Checkpoint, open_folder};
@@ -67,34 +64,21 @@ fn problem(args: &CalibrateArgs) -> Result<Problem, Failure> {
     output::notes(&measured.notes);
     let family = SoilFamily::new(&stand.soil.document, &args.fit)
         .map_err(|problem| Failure::Usage(format!("--fit: {problem}")))?;
-    let settings = settings(args, (data, &bytes), &stand, &family);
+    let settings = WheelInputs {
+        data: &data.display().to_string(),
+        bytes: &bytes,
+        conditions: &args.conditions,
+        family: &family,
+        soil: &stand.soil.document,
+        wheel: &stand.wheel.document,
+        gravity: stand.gravity,
+        model: &stand.model,
+        seed: args.seed,
+        steps: args.steps,
+    }
+    .to_json();
     let file = data.file_name().map_or_else(String::new, |name| name.to_string_lossy().into());
     Ok(Problem { file, stand, measured, family, settings })
-}
-
-/// * `data`: what was asked for, and the bytes found there
-fn settings(
-    args: &CalibrateArgs,
-    (data, bytes): (&Path, &[u8]),
-    stand: &StandInputs,
-    family: &SoilFamily,
-) -> Value {
-    let conditions: Vec<String> = args.conditions.iter().map(ToString::to_string).collect();
-    let keys = family.parameters().iter();
-    let fit: Vec<Value> =
-        keys.map(|key| json!({"key": key.name, "from": key.lower, "to": key.upper})).collect();
-    json!({
-        "data": data.display().to_string(),
-        "data_fingerprint": fingerprint(bytes),
-        "where": conditions,
-        "fit": fit,
-        "soil": stand.soil.document,
-        "wheel": stand.wheel.document,
-        "gravity_m_s2": stand.gravity,
-        "model": stand.model.name(),
-        "seed": args.seed,
-        "steps": args.steps,
-    })
 }
 
 fn find(

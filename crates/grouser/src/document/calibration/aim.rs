@@ -27,6 +27,19 @@ pub struct AimWords {
     pub slip_angle_deg: Vec<f64>,
 }
 
+impl Default for AimWords {
+    /// What is asked for where nobody says otherwise.
+    fn default() -> Self {
+        Self {
+            target: Self::USUAL_TARGET.to_owned(),
+            propose: Self::USUAL_PROPOSALS,
+            load_n: None,
+            slip_ratio: vec![-0.6, -0.3, 0.0, 0.3, 0.6, 0.9],
+            slip_angle_deg: vec![0.0, 15.0, 30.0, 45.0],
+        }
+    }
+}
+
 /// An invalid aim.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AimError {
@@ -57,6 +70,11 @@ pub enum AimError {
 }
 
 impl AimWords {
+    /// The prediction that is narrowed where nobody asks for another one.
+    pub const USUAL_TARGET: &str = "drawbar_pull_n:slip_ratio=0.2";
+    /// How many runs are proposed then.
+    pub const USUAL_PROPOSALS: usize = 3;
+
     /// Parses the aim.
     ///
     /// * `trials`: give the load where the text has none; at least one

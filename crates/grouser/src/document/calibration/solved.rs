@@ -224,6 +224,9 @@ pub fn fit_notes(fit: &Fit) -> Vec<String> {
 /// Permitted numbers of steps of each walker.
 pub const STEPS: std::ops::Range<u64> = 100..1_000_000;
 
+/// Steps of each walker where nobody says how many.
+pub const USUAL_STEPS: u64 = 400;
+
 /// How a posterior is sampled with a seed and a number of steps, rounded up to whole blocks.
 #[must_use]
 pub fn sampling(seed: u64, steps: u64, kept: Option<PosteriorState>) -> Sampling {

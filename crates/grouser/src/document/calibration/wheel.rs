@@ -1,8 +1,10 @@
 //! A calibration on wheel tests, from documents to documents.
 
 use serde::Serialize;
+use serde_json::{Value, json};
 
-use super::super::measurements::Measurements;
+use super::super::checkpoint::fingerprint;
+use super::super::measurements::{Condition, Measurements};
 use super::super::soil_family::DISCREPANCY;
 use super::super::validation::GroupRecord;
 use super::super::{Document, SAMPLES_FILE, SoilFamily, with_priors_held};
@@ -42,6 +44,53 @@ pub struct WheelProblem<'a> {
     pub aim: Aim,
     /// Whether each slip angle is left out in turn.
     pub cross_validate: bool,
+}
+
+/// What a calibration on wheel tests was asked, as its answer states it.
+pub struct WheelInputs<'a> {
+    /// What the data are called.
+    pub data: &'a str,
+    /// Their bytes.
+    pub bytes: &'a [u8],
+    /// Which rows count.
+    pub conditions: &'a [Condition],
+    /// The soils among which it chooses.
+    pub family: &'a SoilFamily,
+    /// The soil to start from.
+    pub soil: &'a Document,
+    /// The wheel that was tested.
+    pub wheel: &'a Document,
+    /// Gravity, *g* [m/s²].
+    pub gravity: f64,
+    /// The wheel–soil model.
+    pub model: &'a Model,
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Steps of each walker of the posterior.
+    pub steps: u64,
+}
+
+impl WheelInputs<'_> {
+    /// The inputs by their names.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        let conditions: Vec<String> = self.conditions.iter().map(ToString::to_string).collect();
+        let keys = self.family.parameters().iter();
+        let fit: Vec<Value> =
+            keys.map(|key| json!({"key": key.name, "from": key.lower, "to": key.upper})).collect();
+        json!({
+            "data": self.data,
+            "data_fingerprint": fingerprint(self.bytes),
+            "where": conditions,
+            "fit": fit,
+            "soil": self.soil,
+            "wheel": self.wheel,
+            "gravity_m_s2": self.gravity,
+            "model": self.model.name(),
+            "seed": self.seed,
+            "steps": self.steps,
+        })
+    }
 }
 
 /// The results of a calibration on wheel tests.
