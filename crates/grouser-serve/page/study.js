@@ -1,8 +1,10 @@
 // A study that takes long: started and stopped by hand, with its progress.
 
 import { Asking } from "./api.js";
-import { element, four } from "./dom.js";
+import { element, four, picturesOf, tableOf } from "./dom.js";
+import { exportOf } from "./heading.js";
 
+/** @typedef {import("./session.js").Session} Session */
 /** @typedef {import("./api.js").Line} Line */
 
 /** The buttons of a study, and how far it is. */
@@ -72,5 +74,96 @@ export class Study {
   stop() {
     this.asking.stop();
     this.show(false);
+  }
+}
+
+/** The answer of a study: its sentences, tables and figures once it has ended. */
+export class StudyAnswer {
+  /**
+   * @param {object} words
+   * @param {string} words.start what the start button says
+   * @param {string} words.hint what stands there before the first answer
+   * @param {string} words.none what is said then
+   * @param {(error: Error | undefined) => void} ended
+   * @param {() => void} started
+   */
+  constructor({ start, hint, none }, ended, started) {
+    this.ended = ended;
+    /** @type {string | undefined} the picture for a slide */
+    this.slide = undefined;
+    this.first = none;
+    this.study = new Study(start, () => {
+      started();
+      this.start();
+    }, () => this.ended(undefined));
+    this.asking = this.study.asking;
+    this.body = element("div", {}, [element("p", { class: "sentence" }, [hint])]);
+    this.element = element("div", {}, [this.study.element, this.body]);
+  }
+
+  /**
+   * The question of a session, with its name.
+   * @param {Session} session
+   * @returns {[string, object]}
+   */
+  question(session) {
+    throw new Error(`no question of ${session.view}`);
+  }
+
+  /**
+   * The sentences that are shown below the first.
+   * @param {string[]} all
+   */
+  others(all) {
+    return all;
+  }
+
+  /** Nothing was found. */
+  failed() {}
+
+  /** @param {Session} session */
+  ask(session) {
+    // What is shown is of numbers that were moved since.
+    if (this.session) this.body.classList.add("old");
+    this.session = session;
+    this.ended(undefined);
+  }
+
+  start() {
+    if (!this.session) return;
+    this.study.run(...this.question(this.session), (line) => {
+      if (line.schema === "grouser.shown.v1") this.take(line);
+    }, (error) => {
+      if (error) {
+        this.failed();
+        this.body.replaceChildren(element("p", { class: "error", id: "why-none" }, [error.message]));
+      }
+      this.ended(error);
+    });
+  }
+
+  /** @param {Line} line */
+  take(line) {
+    this.slide = line.slide;
+    const [first = "", ...others] = line.sentences ?? [];
+    this.first = first;
+    this.body.classList.remove("old");
+    this.body.replaceChildren(
+      element("div", { class: "card" }, [
+        element("p", { class: "found", id: "found" }, [first]),
+        element("ul", {}, this.others(others).map((it) => element("li", {}, [it]))),
+      ]),
+      ...(line.tables ?? []).map(({ caption, columns, rows }) => tableOf(caption, columns, rows)),
+      element("div", { class: "figures" }, picturesOf(line.figures ?? [])),
+      exportOf(line, undefined),
+    );
+  }
+
+  stop() {
+    this.study.stop();
+  }
+
+  said() {
+    return this.first;
   }
 }
