@@ -1,7 +1,7 @@
 //! Campaigns of the folder: computed with their progress, stopped, resumed, and nowhere else.
 
 use std::fs;
-use std::io::{Read as _, Write as _};
+use std::io::Read as _;
 use std::time::{Duration, Instant};
 
 use grouser_serve::Settings;
@@ -48,7 +48,7 @@ fn a_campaign_is_computed_and_summarised() {
     assert_eq!(listed(&server), [row]);
     let again = server.post("campaign-summary", &json!({"out": "sand"})).lines();
     assert_eq!(&again[0], summary);
-    // The same study goes on, which is nothing to do; another one is refused.
+    // A study that is asked for again has nothing left to do; another one is refused.
     let same = server.post("campaign", &json!({"out": "sand"})).lines();
     assert_eq!(same[same.len() - 2], *summary);
     let other = server.post("campaign", &asked("sand", 500, 100));
@@ -61,16 +61,7 @@ fn a_campaign_is_computed_and_summarised() {
 fn a_campaign_that_was_stopped_goes_on() {
     let (_folder, server) = served();
     let long = asked("stopped", 40_000, 50);
-    let body = long.to_string();
-    let mut stream = server.connect();
-    let head = format!(
-        "POST /api/campaign HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nAuthorization: Bearer {}\r\n\
-         Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{body}",
-        server.port,
-        server.token,
-        body.len()
-    );
-    stream.write_all(head.as_bytes()).unwrap();
+    let mut stream = server.begin("campaign", &long);
     let since = Instant::now();
     let done = loop {
         let _ = stream.read(&mut [0; 4096]).unwrap();

@@ -1,6 +1,6 @@
 //! Designs: searched with their progress, and stopped with who asked for them.
 
-use std::io::{Read as _, Write as _};
+use std::io::Read as _;
 use std::time::Instant;
 
 use grouser::answers::AnswerOptions;
@@ -89,16 +89,7 @@ fn a_search_ends_with_who_asked_for_it() {
     let server = Served::start(&Settings { limits, ..Settings::default() });
     let long = json!({"design": LIGHTER, "set": {"design.soil": "toyoura-uncertain"},
                       "trade": ["energy_j_per_m", "wheel_mass_kg"]});
-    let body = long.to_string();
-    let mut stream = server.connect();
-    let head = format!(
-        "POST /api/design HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nAuthorization: Bearer {}\r\n\
-         Content-Type: application/json\r\nContent-Length: {}\r\n\r\n{body}",
-        server.port,
-        server.token,
-        body.len()
-    );
-    stream.write_all(head.as_bytes()).unwrap();
+    let mut stream = server.begin("design", &long);
     let mut first = [0; 64];
     stream.read_exact(&mut first).unwrap();
     assert!(first.starts_with(b"HTTP/1.1 200"));

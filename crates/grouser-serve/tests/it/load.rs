@@ -84,12 +84,7 @@ impl Times {
 }
 
 fn post(server: &Served, question: &str, body: &str) -> String {
-    let Served { port, token, .. } = server;
-    format!(
-        "POST /api/{question} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nAuthorization: Bearer {token}\r\n\
-         Content-Type: application/json\r\nContent-Length: {}\r\nConnection: close\r\n\r\n{body}",
-        body.len()
-    )
+    server.request("POST", &format!("/api/{question}"), "", body)
 }
 
 /// The memory of this process [MiB]: now, or at the most until now.

@@ -49,6 +49,14 @@ impl Served {
         stream
     }
 
+    /// Asks a question whose answer is left to be read.
+    pub(crate) fn begin(&self, question: &str, body: &Value) -> TcpStream {
+        let mut stream = self.connect();
+        let request = self.request("POST", &format!("/api/{question}"), "", &body.to_string());
+        stream.write_all(request.as_bytes()).unwrap();
+        stream
+    }
+
     /// Sends the bytes of a request, and reads until the server has nothing more to say.
     pub(crate) fn send(&self, request: &str) -> Reply {
         Self::send_on(self.connect(), request)
@@ -64,14 +72,19 @@ impl Served {
     /// A request with all that it needs.
     ///
     /// * `more`: further headers, each with its line end
-    pub(crate) fn ask(&self, method: &str, path: &str, more: &str, body: &str) -> Reply {
+    pub(crate) fn request(&self, method: &str, path: &str, more: &str, body: &str) -> String {
         let Self { port, token, .. } = self;
         let kind = if body.is_empty() { "" } else { "Content-Type: application/json\r\n" };
         let length = body.len();
-        self.send(&format!(
+        format!(
             "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nAuthorization: Bearer {token}\r\n\
              Content-Length: {length}\r\n{kind}{more}Connection: close\r\n\r\n{body}"
-        ))
+        )
+    }
+
+    /// Sends such a request, and reads its answer.
+    pub(crate) fn ask(&self, method: &str, path: &str, more: &str, body: &str) -> Reply {
+        self.send(&self.request(method, path, more, body))
     }
 
     pub(crate) fn post(&self, question: &str, body: &Value) -> Reply {
