@@ -28,7 +28,7 @@ pub(crate) type SentLine = (Bytes, Option<OwnedSemaphorePermit>);
 pub(crate) struct AnswerLines {
     pub(crate) first: Option<SentLine>,
     pub(crate) rest: Receiver<SentLine>,
-    /// That of the line which is being taken.
+    /// The memory of the line which is being taken.
     pub(crate) taken: Option<OwnedSemaphorePermit>,
     pub(crate) _asking: Waiter,
     pub(crate) _place: Arc<Place>,

@@ -12,11 +12,11 @@ use crate::refusal::Refusal;
 
 /// The places of computations.
 pub(crate) struct RunPlaces {
-    /// Of those that compute.
+    /// The places of questions that are computed.
     computing: Arc<Semaphore>,
-    /// Of these, and of those that wait.
+    /// The places of these and of those that wait.
     all: Arc<Semaphore>,
-    /// Of those that read documents and maps.
+    /// The places of questions whose documents and maps are read.
     reading: Arc<Semaphore>,
     /// The memory for lines that wait for their readers [KiB].
     lines: Arc<Semaphore>,
@@ -100,7 +100,7 @@ impl Drop for Waiter {
 }
 
 impl GoOn {
-    /// The same for a study that shows its progress: it ends with who watches it, or the server.
+    /// What a study goes by that shows its progress: it ends with who watches it, or the server.
     pub(crate) fn of_study(&self) -> Self {
         Self { until: self.until + STUDY, ..self.clone() }
     }

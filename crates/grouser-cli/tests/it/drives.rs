@@ -199,7 +199,7 @@ fn drives_without_a_word_on_slip_are_refused_with_the_reason() {
     let mut rows = format!("time_s,x_m,y_m,yaw_deg,roll_deg,pitch_deg{speeds}\n");
     for step in 0..600 {
         let time = 0.1 * f64::from(step);
-        // The same share of the wheels' way, all the time.
+        // The rover moves by the same share of the wheels' way all the time.
         let cells = [time, 0.0475 * time, 0.0, 0.0, 5.0, 0.0, 0.5, 0.5, 0.5, 0.5];
         rows += &(cells.map(|it| it.to_string()).join(",") + "\n");
     }
@@ -223,7 +223,7 @@ struct Held {
 }
 
 /// What is learnt of each number of hidden soils, on each of which a few trials of the data set are
-/// driven one after the other; and how many drives told of it: where wheels all but spin there is no
+/// driven one after the other; and how many drives taught something: where wheels all but spin there is no
 /// steady motion to compare with, and its drift passes for a fault.
 fn held(layout: Layout, count: u32) -> (Vec<Held>, u32) {
     let rover = format!("scenario.rover={}", layout.rover());
@@ -233,7 +233,7 @@ fn held(layout: Layout, count: u32) -> (Vec<Held>, u32) {
     let before = learner().samples(1, SAMPLES).expect("soils are drawn");
     let held = |key: &str| Held { key: key.to_owned(), drives: 0, width: 0.0 };
     let mut held: Vec<Held> = learner().keys().map(held).collect();
-    let mut told = 0;
+    let mut taught = 0;
     for (index, (first, truth)) in (0_u64..).zip(hidden.iter().enumerate()) {
         // Where a soil is too weak for a trial it has the next one.
         let trials = TRIALS.iter().cycle().skip(first % TRIALS.len()).take(TRIALS.len());
@@ -245,7 +245,7 @@ fn held(layout: Layout, count: u32) -> (Vec<Held>, u32) {
             learn(&mut learner, &prior, layout, rows);
         }
         let is_faultless = learner.gross_faults().is_empty();
-        told += u32::from(is_faultless && learner.learnt().stretches > 3);
+        taught += u32::from(is_faultless && learner.learnt().stretches > 3);
         let after = learner.samples(index, SAMPLES).expect("soils are drawn");
         for (key, held) in held.iter_mut().enumerate() {
             let [[low, high], before] = [&after, &before].map(|it| band(it, key));
@@ -253,7 +253,7 @@ fn held(layout: Layout, count: u32) -> (Vec<Held>, u32) {
             held.width += (high - low) / (before[1] - before[0]) / f64::from(count);
         }
     }
-    (held, told)
+    (held, taught)
 }
 
 /// Trials on one soil.
@@ -281,10 +281,10 @@ fn learn(learner: &mut Learner, prior: &LoadedScenario, layout: Layout, rows: St
     learner.finish();
 }
 
-/// Each number of the hidden soil is in its band after so many drives and more, so many tell of it, and
+/// Each number of the hidden soil is in its band after so many drives and more, so many teach something, and
 /// one that drives tell of is known better than before.
-fn check_held((held, told): &(Vec<Held>, u32), least: u32) {
-    assert!(*told >= least, "{told}");
+fn check_held((held, taught): &(Vec<Held>, u32), least: u32) {
+    assert!(*taught >= least, "{taught}");
     assert!(held.iter().all(|it| it.drives >= least), "{held:?}");
     assert!(held.iter().any(|it| it.width < 0.7), "{held:?}");
 }

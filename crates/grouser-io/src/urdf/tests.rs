@@ -570,7 +570,7 @@ fn what_robots_leave_out_is_estimated_and_said() {
     assert_eq!(raised.mounts()[0].unit.inertia, level.mounts()[0].unit.inertia);
 }
 
-/// Two tyres on one axle are a wheel between them, in whichever order they are told.
+/// Two tyres on one axle are one wheel between them, in whichever order the file has them.
 #[test]
 fn tyres_side_by_side_are_one_wheel() {
     let tyre = |y: &str| {
@@ -586,7 +586,7 @@ fn tyres_side_by_side_are_one_wheel() {
         let said = "2 tyres side by side, together 0.08 m wide";
         assert!(rover.notes.iter().any(|it| it.contains(said)), "{:?}", rover.notes);
     }
-    // What is told twice is one.
+    // A cylinder that stands there twice is one.
     let twice = found(&cart(&(CYLINDER.to_owned() + CYLINDER), ""), &UrdfOptions::default());
     assert_eq!(twice.wheels, one.wheels);
 }

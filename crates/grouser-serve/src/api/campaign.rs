@@ -151,7 +151,7 @@ fn summarise(
     let (statistics, finished) = Statistics::of(campaign, &results).map_err(stored)?;
     let Manifest { name, seed, study_sha256, part, .. } = results.manifest();
     let Finished { digest, shards, bytes } = finished;
-    // As `grouser campaign summarise --format json` has it.
+    // The answer is that of `grouser campaign summarise --format json`.
     let mut answer = json!({
         "schema": "grouser.campaign.summarise.v1",
         "version": env!("CARGO_PKG_VERSION"),
