@@ -19,10 +19,11 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-VIEWS = ("heading", "wheel", "drive", "mission", "map", "design", "campaigns", "fit")
+VIEWS = ("heading", "wheel", "drive", "scene", "mission", "map", "design", "campaigns", "fit")
 #: The sessions that views are looked at with, where they show little by themselves.
 SEEN = {
     "map": "view=map&at=10,20&from=-35,-35&to=35,35",
+    "scene": "view=drive&seen=scene",
     "mission": "view=drive&mission=switchbacks-15-deg",
     "design": "view=design&belief=nominal",
     "campaigns": "view=campaigns&runs=2000&out=looked",
@@ -127,7 +128,7 @@ def settled(page):
     page.wait_for_timeout(100)
     for _ in range(300):
         said = page.locator("#busy").inner_text()
-        if said and not said.startswith("computing") and page.locator(".stale").count() == 0:
+        if said and not said.startswith("computing") and page.locator(".stale, [aria-busy='true']").count() == 0:
             # Charts come a little later.
             page.wait_for_timeout(300)
             return
@@ -276,6 +277,114 @@ def records_differ(page, run, place):
             if number != four(wheel[column]):
                 flaws.append(f"{column} of {wheel['wheel']} is {number}, the program has {wheel[column]}")
     return flaws
+
+
+def place_in_scene(page):
+    """Where the rover is in three dimensions, by the words below it."""
+    return [page.locator(f"[data-column='scene-{axis}_m']").inner_text() for axis in "xyz"]
+
+
+def scene_differs(page):
+    """Where the scene has other wheels, or at the end of the run another place of the rover, than the
+    page's tables."""
+    flaws = []
+    wheels = page.locator("[data-column='scene-wheels']").inner_text()
+    rows = page.locator("#now tbody tr").count()
+    if wheels != str(rows):
+        flaws.append(f"there are {wheels} wheels, the table has {rows}")
+    for axis, at in zip("xyz", place_in_scene(page), strict=True):
+        # On a plane the height has no column.
+        cell = page.locator(f"[data-column='final-{axis}_m']")
+        if cell.count() and cell.inner_text() != at:
+            flaws.append(f"{axis} is {at}, the table has {cell.inner_text()}")
+    return flaws
+
+
+def pixels(page):
+    """The picture in three dimensions, once it is drawn."""
+    page.wait_for_timeout(300)
+    return page.locator(".stage canvas").screenshot()
+
+
+def seen(page, how):
+    """Shows the drive in another way, by the keyboard."""
+    page.locator(f"#seen-{how}").press("Enter")
+    settled(page)
+
+
+def use_scene(looks, browser, server):
+    page, flaws = opened(browser, server, "view=drive")
+    page.on("console", lambda line: "WebGL contexts" in line.text and flaws.append(f"says {line.text}"))
+    loaded = "performance.getEntriesByType('resource').filter(it => it.name.includes('/three/')).length"
+    early = page.evaluate(loaded)
+    seen(page, "scene")
+    blank = [] if len(pixels(page)) > 8000 else ["the picture is blank"]
+    lazy = ["three is loaded before it is asked for"] if early or not page.evaluate(loaded) else []
+    looks.claim("a drive ends in three dimensions where its table says", blank + lazy + scene_differs(page))
+    end = place_in_scene(page)
+    page.locator("#time").focus()
+    page.keyboard.press("Home")
+    for _ in range(7):
+        page.keyboard.press("ArrowRight")
+    record = server.run(page.locator("#command").inner_text())["samples"][7]
+    # Between its pictures the scene goes evenly.
+    apart = [abs(float(at) - record[f"{axis}_m"]) for axis, at in zip("xy", place_in_scene(page), strict=False)]
+    there = [] if max(apart) < 1e-3 and place_in_scene(page) != end else [f"it is {apart} m from the record"]
+    looks.claim("keys scrub the drive in three dimensions", there)
+    page.locator("#play").press("Enter")
+    page.wait_for_timeout(11500)
+    looks.claim("a drive plays to its end in three dimensions", scene_differs(page))
+    before = pixels(page)
+    page.locator("#follow").press("Enter")
+    whole = pixels(page)
+    page.locator(".stage canvas").focus()
+    for key in ("ArrowLeft", "ArrowUp", "+"):
+        page.keyboard.press(key)
+    turned = pixels(page)
+    box = page.locator(".stage canvas").bounding_box()
+    page.mouse.move(box["x"] + 100, box["y"] + 100)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 180, box["y"] + 120, steps=3)
+    page.mouse.up()
+    views = [before, whole, turned, pixels(page)]
+    still = [what for what, one, other in zip(("the button", "keys", "the mouse"), views, views[1:], strict=False) if one == other]
+    looks.claim("keys and the mouse turn the view", [f"{what} leaves it as it was" for what in still])
+    looks.claim("the keyboard reaches everything about a drive in three dimensions", unreached(page))
+    for mission in (False, True):
+        if mission:
+            page.locator("#mission").select_option("switchbacks-15-deg")
+        else:
+            page.locator("#ground").select_option("hills.tif")
+        settled(page)
+        what = "a mission" if mission else "a drive on a map"
+        looks.claim(f"{what} ends in three dimensions where its table says", scene_differs(page))
+    link = page.url.split("#")[1]
+    for _ in range(20):
+        seen(page, "plan")
+        seen(page, "scene")
+    seen(page, "plan")
+    left = page.locator("canvas").count()
+    looks.claim("a picture that is closed leaves nothing", flaws + ([f"there are {left}"] if left else []))
+    page.context.close()
+    page, flaws = opened(browser, server, link)
+    looks.claim("a link restores a drive in three dimensions", flaws + scene_differs(page))
+    page.context.close()
+    page, _ = opened(browser, server, "view=drive&seen=scene&set.soil.friction_angle_deg=99")
+    said = page.locator("main").inner_text()
+    looks.claim("a drive that fails says why", [] if "it must be 5 to 60" in said else [f"there is {said}"])
+    page.context.close()
+
+
+def use_without_depth(looks, browser, server):
+    page, flaws = opened(browser, server, "view=heading")
+    page.evaluate("HTMLCanvasElement.prototype.getContext = () => null")
+    page.get_by_role("button", name="Drive", exact=True).click()
+    settled(page)
+    seen(page, "scene")
+    said = page.get_by_text("WebGL 2 is missing").count()
+    stays = page.get_by_role("img", name=re.compile("The track from above")).is_visible()
+    looks.claim("without WebGL a sentence says so and the plan stays", flaws + ([] if said and stays else ["it does not"]))
+    page.context.close()
 
 
 def use_mission(looks, page, server):
@@ -513,6 +622,8 @@ def use(looks, browser, server):
     looks.claim("the keyboard reaches everything about a wheel", unreached(page))
     page.context.close()
     use_drive(looks, browser, server)
+    use_scene(looks, browser, server)
+    use_without_depth(looks, browser, server)
     use_design(looks, browser, server)
     use_campaigns(looks, browser, server)
     use_fit(looks, browser, server)
@@ -523,8 +634,10 @@ def main(chromium, axe, program, pictures=None):
     looks = Looks()
     script = Path(axe).read_text(encoding="utf-8")
     with Server(program) as server, sync_playwright() as playwright:
-        # Without a sandbox it also runs as root, as in a container; it shows our own pages only.
-        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        # Without a sandbox it also runs as root, as in a container; it shows our own pages only. WebGL
+        # is drawn by the processor, for lack of another.
+        flags = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+        browser = playwright.chromium.launch(executable_path=chromium, args=flags)
         look_at_views(looks, browser, server, script, pictures)
         use(looks, browser, server)
         browser.close()

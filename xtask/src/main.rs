@@ -37,6 +37,7 @@ mod site;
 mod texts;
 mod times;
 mod tools;
+mod vendored;
 mod wasm;
 mod workflows;
 mod workspace;

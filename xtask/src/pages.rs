@@ -12,7 +12,7 @@ use anyhow::{Context, Result, ensure};
 
 use crate::libtest::Count;
 use crate::tools::{self, CHROMIUM, NPM};
-use crate::{python, workspace};
+use crate::{python, vendored, workspace};
 
 /// What checks types that comments declare: where from is for npm's own settings to say.
 const TYPESCRIPT: &str = "typescript@5.9.3";
@@ -79,7 +79,7 @@ const REPORTS: [(&str, &[&str]); 9] = [
 /// Looks at the site in `target/site`, and at reports made for it, and counts pages; without a
 /// browser all count as skipped.
 pub(crate) fn check() -> Result<Count> {
-    let mut count = typed()?;
+    let mut count = scripts()?;
     let Some(browser) = tools::browser() else {
         println!("{}", CHROMIUM.missing());
         count += Count::skipped();
@@ -100,7 +100,7 @@ pub(crate) fn check() -> Result<Count> {
 ///
 /// * `pictures`: the folder that a picture of each view is written into
 pub(crate) fn console(pictures: Option<&Path>) -> Result<Count> {
-    let mut count = typed()?;
+    let mut count = scripts()?;
     count += if let Some(browser) = tools::browser() {
         used(&python::environment()?, browser, pictures)?
     } else {
@@ -110,8 +110,9 @@ pub(crate) fn console(pictures: Option<&Path>) -> Result<Count> {
     Ok(count)
 }
 
-/// Checks the types of the console's scripts, which is one check; without npm it is skipped.
-fn typed() -> Result<Count> {
+/// Checks the types of the console's scripts, and that those of others are as they were published:
+/// two checks, skipped without npm.
+fn scripts() -> Result<Count> {
     if !NPM.is_here() {
         println!("{}", NPM.missing());
         return Ok(Count::skipped());
@@ -119,13 +120,15 @@ fn typed() -> Result<Count> {
     let folder = workspace::target().join("npm");
     fs::create_dir_all(&folder)?;
     let mut install = Command::new("npm");
-    install.args(["install", "--no-save", "--no-audit", "--no-fund", "--silent", TYPESCRIPT]);
-    let done = install.arg("--prefix").arg(&folder).status().context("npm did not start")?;
-    ensure!(done.success(), "npm cannot install {TYPESCRIPT}");
+    install.args(["install", "--no-save", "--no-audit", "--no-fund", "--silent"]);
+    install.args([TYPESCRIPT, vendored::PACKAGE]).arg("--prefix").arg(&folder);
+    let done = install.status().context("npm did not start")?;
+    ensure!(done.success(), "npm cannot install {TYPESCRIPT} and {}", vendored::PACKAGE);
     let mut check = Command::new(folder.join("node_modules/.bin/tsc"));
     check.args(["--pretty", "false", "--project"]).arg(workspace::root().join(TYPED));
-    let count = Count::one(check.status().context("tsc did not start")?.success());
+    let mut count = Count::one(check.status().context("tsc did not start")?.success());
     println!("types of the console's scripts: {count}");
+    count += Count::one(vendored::check(&folder.join("node_modules"))?);
     Ok(count)
 }
 

@@ -5,17 +5,19 @@ use std::process::Command;
 use anyhow::{Context, Result};
 
 use crate::flaw::Flaw;
-use crate::{address, cited, hygiene, links, workspace};
+use crate::{address, cited, hygiene, links, vendored, workspace};
 
 /// Whether every text is in order; prints what is not.
 pub(crate) fn check() -> Result<bool> {
     let mut flaws = Vec::new();
     let mut texts = Vec::new();
     for path in workspace::files()? {
-        // Files that are no text, such as films, hold no words to check, but links may lead to
-        // them.
+        // Files that are no text, such as films, and those of others hold no words to check, but
+        // links may lead to them.
         if let Ok(bytes) = std::fs::read(workspace::root().join(&path)) {
-            texts.push((path, String::from_utf8(bytes).unwrap_or_default()));
+            let is_ours = !path.starts_with(vendored::FOLDER);
+            let text = is_ours.then(|| String::from_utf8(bytes).unwrap_or_default());
+            texts.push((path, text.unwrap_or_default()));
         }
     }
     let own_host = address::of(&texts).map_or("", address::host);

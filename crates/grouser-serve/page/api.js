@@ -27,6 +27,7 @@
  * @property {Record<string, number[]>} [frame] where the ground lies on a drawing
  * @property {string[]} [notes]
  * @property {string} [slide] as SVG
+ * @property {string | null} [scene] a run in three dimensions: binary glTF, in base64
  * @property {{caption: string, columns: string[], rows: Row[]}[]} [tables]
  * @property {{name: string, meaning: string}[]} [measures]
  * @property {string} [what] is counted

@@ -1,10 +1,11 @@
-// The third view: a run over a slope or a map of heights, its track from above, and every wheel on
-// one time line.
+// The third view: a run over a slope or a map of heights, its track from above or the rover in three
+// dimensions, and every wheel on one time line.
 
 import { Asking } from "./api.js";
 import { PATTERNS, drawOver } from "./chart.js";
 import { element, four, svg, tableOf } from "./dom.js";
 import { about as aboutRover, exportOf } from "./heading.js";
+import { DriveScene, hasDepth } from "./scene.js";
 import { setOf } from "./session.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -42,8 +43,11 @@ const PLAY = 10;
 
 /** The answer about a run. */
 export class DriveAnswer {
-  /** @param {(error: Error | undefined) => void} ended */
-  constructor(ended) {
+  /**
+   * @param {(error: Error | undefined) => void} ended
+   * @param {(seen: string, isToAsk: boolean) => void} looked takes the way in which the drive is shown
+   */
+  constructor(ended, looked) {
     this.ended = ended;
     this.asking = new Asking();
     /** @type {any} */
@@ -66,6 +70,18 @@ export class DriveAnswer {
       event.preventDefault();
       this.steered({ ...leg });
     });
+    const choice = (/** @type {string} */ seen, /** @type {string} */ text) => element("button", {
+      type: "button", id: `seen-${seen}`, "aria-pressed": "false", onclick: () => {
+        const isScene = this.look(seen);
+        looked(isScene ? "scene" : "plan", isScene);
+      },
+    }, [text]);
+    this.choices = { plan: choice("plan", "From above"), scene: choice("scene", "In three dimensions") };
+    this.lacking = element("p", { class: "error", role: "alert" });
+    this.scene = new DriveScene((problem) => {
+      this.look("plan");
+      this.lacking.textContent = problem;
+    });
     this.figures = element("div", { class: "figures" });
     this.legs = element("div");
     /** @type {any[]} legs whose places are shown and may be dragged */
@@ -78,15 +94,46 @@ export class DriveAnswer {
     this.out = element("div");
     this.element = element("div", {}, [
       element("div", { class: "timeline", role: "group", "aria-label": "Time line" }, [this.button, this.time, this.clock]),
-      element("div", { class: "figures" }, [element("div", { class: "beside" }, [this.outcome, this.now]), this.plan]),
+      element("div", { class: "figures" }, [element("div", { class: "beside" }, [this.outcome, this.now]), element("div", {}, [
+        element("div", { class: "choice", role: "group", "aria-label": "How the drive is shown" }, [this.choices.plan, this.choices.scene]),
+        this.lacking, this.plan, this.scene.element,
+      ])]),
       this.legs, this.names, this.figures, this.out,
     ]);
     this.timer = 0;
+    this.isScene = false;
+  }
+
+  /**
+   * Shows the drive from above, or in three dimensions where the browser can.
+   * @param {string} seen
+   */
+  look(seen) {
+    const lacks = seen === "scene" && !hasDepth();
+    this.lacking.textContent = lacks ? "This browser shows nothing in three dimensions (WebGL 2 is missing or switched off): the drive is shown from above." : "";
+    this.isScene = seen === "scene" && !lacks;
+    this.plan.hidden = this.isScene;
+    this.scene.element.hidden = !this.isScene;
+    this.choices.plan.setAttribute("aria-pressed", String(!this.isScene));
+    this.choices.scene.setAttribute("aria-pressed", String(this.isScene));
+    if (this.isScene) this.scene.wait();
+    else this.scene.close();
+    return this.isScene;
+  }
+
+  /**
+   * Takes the line that follows an answer.
+   * @param {Line} line
+   */
+  takeShown(line) {
+    this.out.replaceChildren(exportOf(line, undefined));
+    if (this.isScene && line.scene) this.scene.take(line.scene);
   }
 
   /** @param {Session} session */
   ask(session) {
     this.pause();
+    this.look(session.seen);
     this.outcome.classList.add("stale");
     if (session.mission) {
       this.askMission(session);
@@ -96,12 +143,12 @@ export class DriveAnswer {
     const about = aboutRover(session);
     const question = {
       ...about, ...(isPlane ? { slope_deg: session.slope } : {}), yaw_deg: session.yaw, duration_s: session.duration,
-      rim_speed_m_s: session.speed, shown: true,
+      rim_speed_m_s: session.speed, shown: true, ...(this.isScene ? { scene: true } : {}),
       set: { ...about.set, ...(isPlane ? {} : { "scenario.terrain.file": session.ground }) },
     };
     this.asking.ask("traverse", question, (line) => {
       if (line.schema === "grouser.traverse.v1") this.take(line, isPlane);
-      else this.out.replaceChildren(exportOf(line, undefined));
+      else this.takeShown(line);
     }, (error) => this.answered(error));
   }
 
@@ -120,7 +167,7 @@ export class DriveAnswer {
   askMission(session) {
     /** @type {any} */
     let mission;
-    this.asking.ask("mission", { ...aboutMission(session), shown: true, figures: true }, (line) => {
+    this.asking.ask("mission", { ...aboutMission(session), shown: true, figures: true, ...(this.isScene ? { scene: true } : {}) }, (line) => {
       if (line.schema !== "grouser.shown.v1") {
         mission = line;
         return;
@@ -128,7 +175,7 @@ export class DriveAnswer {
       const first = mission.alternatives?.[0] ?? mission;
       this.take({ ...line.run, outcome: first.outcome, reason: line.verdict }, line.run.samples[0].z_m === undefined);
       this.legs.replaceChildren(...(line.tables ?? []).map(({ caption, columns, rows }) => tableOf(caption, columns, rows)));
-      this.out.replaceChildren(exportOf(line, undefined));
+      this.takeShown(line);
     }, (error) => this.answered(error));
   }
 
@@ -138,6 +185,7 @@ export class DriveAnswer {
     if (error) {
       this.run = undefined;
       this.outcome.replaceChildren(element("p", { class: "number" }, ["–"]), element("p", { class: "error" }, [error.message]));
+      this.scene.clear();
       for (const old of [this.now, this.plan, this.legs, this.figures, this.names, this.out]) old.replaceChildren();
     }
     this.ended(error);
@@ -146,6 +194,7 @@ export class DriveAnswer {
   stop() {
     this.pause();
     this.asking.stop();
+    this.scene.close();
   }
 
   /**
@@ -286,6 +335,7 @@ export class DriveAnswer {
     time.setAttribute("aria-valuetext", `${four(record.time_s)} s`);
     this.clock.textContent = `${four(record.time_s)} s`;
     this.pose?.(record);
+    this.scene.at(record.time_s);
     for (const cursor of this.cursors) cursor(record.time_s);
     const rover = OF_ROVER.filter(([column]) => typeof record[column] === "number").map(([column, label]) => {
       const [name, unit = ""] = label.replace("]", "").split(" [");

@@ -217,7 +217,7 @@ function begin() {
         group(`Soil: ${names["soil"]}`, of("soil"), true), group(`Rover: ${names["rover"]}`, of("rover"), false),
       );
       if (isDrive) {
-        drive = new DriveAnswer(ended);
+        drive = new DriveAnswer(ended, looked);
         answer.replaceChildren(drive.element);
       } else if (isMap) {
         map = new MapAnswer(ended, () => toAddress(session, pinned), areas);
@@ -261,6 +261,17 @@ function trades(measures) {
   return [element("div", { class: "slider trade" }, ["Trade ", selects[0] ?? "", " for ", selects[1] ?? ""])];
 }
 
+/**
+ * The drive is shown in another way from now on.
+ * @param {string} seen
+ * @param {boolean} isToAsk whether that needs an answer of its own
+ */
+function looked(seen, isToAsk) {
+  session.seen = seen;
+  if (isToAsk) moved();
+  else toAddress(session, pinned);
+}
+
 /** What is driven: one heading, or the legs of a mission. */
 function whatIsDriven() {
   const select = element("select", { id: "mission", onchange: (/** @type {any} */ event) => {
@@ -281,7 +292,7 @@ function beginMission() {
     const legs = line.legs ?? [];
     const isLimit = (/** @type {import("./api.js").Key} */ { key }) => key === "mission.slope_deg" || key.startsWith("mission.stop.");
     const [limits, others] = [(line.keys ?? []).filter(isLimit), (line.keys ?? []).filter((key) => !isLimit(key))];
-    const own = new DriveAnswer(ended);
+    const own = new DriveAnswer(ended, looked);
     drive = own;
     const table = element("div");
     const changed = () => {
@@ -413,7 +424,8 @@ async function slide() {
   if (!name) return;
   announce("computing the slide …");
   const stages = question.stages?.slice(-1);
-  const asked = { ...question, ...(stages ? { stages } : {}), slide: true };
+  const { scene: _, ...other } = question;
+  const asked = { ...other, ...(stages ? { stages } : {}), slide: true };
   const error = await ask(name, asked, new AbortController().signal, (line) => {
     if (line.slide) save(`${name}.svg`, line.slide);
   }).catch((problem) => problem);

@@ -24,7 +24,7 @@ pub(crate) const PAGE: Asset =
     Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
 
 /// Everything that it loads.
-pub(crate) static ASSETS: [Asset; 17] = [
+pub(crate) static ASSETS: [Asset; 24] = [
     asset!("page.css", "text/css; charset=utf-8"),
     asset!("main.js", SCRIPT),
     asset!("api.js", SCRIPT),
@@ -36,6 +36,13 @@ pub(crate) static ASSETS: [Asset; 17] = [
     asset!("wheel.js", SCRIPT),
     asset!("dial.js", SCRIPT),
     asset!("drive.js", SCRIPT),
+    asset!("scene.js", SCRIPT),
+    asset!("three/build/three.core.js", SCRIPT),
+    asset!("three/build/three.module.js", SCRIPT),
+    asset!("three/examples/jsm/loaders/GLTFLoader.js", SCRIPT),
+    asset!("three/examples/jsm/utils/BufferGeometryUtils.js", SCRIPT),
+    asset!("three/examples/jsm/utils/SkeletonUtils.js", SCRIPT),
+    asset!("three/LICENSE", "text/plain; charset=utf-8"),
     asset!("map.js", SCRIPT),
     asset!("study.js", SCRIPT),
     asset!("design.js", SCRIPT),

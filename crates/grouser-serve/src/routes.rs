@@ -48,12 +48,15 @@ pub(crate) async fn respond(
 }
 
 /// Nothing is loaded but from here, nothing runs but the page's scripts, no other page frames or
-/// reads it, and nothing is kept.
+/// reads it, and nothing is kept. Of what is written in the page itself only the map of names of
+/// scripts is let through, by its hash.
 pub(crate) const PROTECTION: [(HeaderName, &str); 8] = [
     (
         CONTENT_SECURITY_POLICY,
-        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; \
-         connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+        "default-src 'none'; script-src 'self' \
+         'sha256-pI6yMuh3IsSSxuMnraW4aTUTCbxe55mxE2S8r6TRM1c='; style-src 'self'; img-src 'self' \
+         data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors \
+         'none'",
     ),
     (X_CONTENT_TYPE_OPTIONS, "nosniff"),
     (X_FRAME_OPTIONS, "DENY"),
@@ -192,6 +195,30 @@ async fn json_of(console: &Console, request: Request<Incoming>) -> Result<Bytes,
         Err(_) => {
             let message = "the body did not come in time";
             Err(Refusal::new(StatusCode::REQUEST_TIMEOUT, message))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use grouser_draw::base64;
+    use sha2::{Digest as _, Sha256};
+
+    use super::*;
+
+    #[test]
+    fn the_map_of_scripts_has_the_hash_that_is_let_through() {
+        let page = std::str::from_utf8(PAGE.content).unwrap();
+        let (_, rest) = page.split_once("<script type=\"importmap\">").unwrap();
+        let (map, _) = rest.split_once("</script>").unwrap();
+        let hash = format!("'sha256-{}'", base64(&Sha256::digest(map)));
+        assert!(PROTECTION[0].1.contains(&hash), "{hash}");
+        // Each name leads to a file that is there.
+        let named: serde_json::Value = serde_json::from_str(map).unwrap();
+        let three = named["imports"]["three"].as_str().unwrap().trim_start_matches('.');
+        assert!(find(three).is_some() && !page.contains("<script>"));
+        for (_, policy) in PROTECTION {
+            assert!(!policy.contains("unsafe"), "{policy}");
         }
     }
 }

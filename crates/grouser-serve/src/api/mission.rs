@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 use super::command::CommandLine;
 use super::fields::AskedFields;
 use super::parts::StudyParts;
-use super::staged::{Staged, Stages, refused};
+use super::staged::{Staged, Stages, refused, scene_of};
 use crate::asked::Question;
 use crate::console::Console;
 use crate::refusal::Refusal;
@@ -35,7 +35,7 @@ struct MissionAsked {
 pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
     let fields = AskedFields::of(body)?;
     let parts = StudyParts::of(&fields, MISSION)?;
-    let stages = Stages::of(&fields, None)?;
+    let stages = Stages::of(&fields, None)?.with_scene(&fields)?;
     fields.finish()?;
     if stages.has_samples() {
         let message = "missions are driven on the soil as written";
@@ -147,6 +147,11 @@ impl Staged for MissionAsked {
         let ways = self.driven.borrow();
         let title = "The path, seen from above";
         ways.first().map(|way| path_of(title, &self.document.value.scenario.rover, &way.report))
+    }
+
+    fn scene(&self) -> Option<Vec<u8>> {
+        let (ways, scenario) = (self.driven.borrow(), &self.document.value.scenario);
+        ways.first().map(|way| scene_of(&self.whose(), &way.report.trajectory, scenario))
     }
 
     fn add_samples(&self, _: &mut CommandLine, _: Option<Sampling>) {}

@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 use grouser::answers::{Answer, AnswerError, AnswerOptions, Displayed, PageBlock, Sampling};
 use grouser::contact::Model;
 use grouser::document::json;
+use grouser::simulation::{Scenario, Trajectory};
 use grouser_draw::chart::Drawable as _;
-use grouser_draw::{Sheet, Slide};
+use grouser_draw::{Animation, Sheet, Slide, base64};
 use hyper::StatusCode;
 use serde_json::{Value, json};
 
@@ -40,6 +41,11 @@ pub(super) trait Staged: 'static {
         None
     }
 
+    /// The run of the last answer in three dimensions, as binary glTF, if it has one.
+    fn scene(&self) -> Option<Vec<u8>> {
+        None
+    }
+
     /// Adds what is shown of the last answer beside its words, such as pictures.
     fn add_shown(&self, _shown: &mut Value) -> Result<(), Refusal> {
         Ok(())
@@ -58,12 +64,14 @@ pub(super) struct Stages {
 }
 
 /// What is shown beside sentences.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Shown {
     /// Whether figures and tables come along.
     draws: bool,
     /// Whether a slide comes along.
     has_slide: bool,
+    /// Whether the run comes along in three dimensions.
+    has_scene: bool,
 }
 
 /// More rows take long without samples, too.
@@ -107,8 +115,16 @@ impl Stages {
         let draws = fields.truth("figures")?;
         let has_slide = fields.truth("slide")?;
         let shows = fields.truth("shown")? || draws || has_slide;
-        let shown = shows.then_some(Shown { draws, has_slide });
+        let shown = shows.then_some(Shown { draws, has_slide, ..Shown::default() });
         Ok(Self { samplings: stages, shown, is_strict: fields.truth("strict")?, rows: 1 })
+    }
+
+    /// The same of runs, which come along in three dimensions where that is asked for.
+    pub(super) fn with_scene(mut self, fields: &AskedFields) -> Result<Self, Refusal> {
+        if fields.truth("scene")? {
+            self.shown.get_or_insert_default().has_scene = true;
+        }
+        Ok(self)
     }
 
     /// Whether any stage has samples.
@@ -182,8 +198,9 @@ impl Stages {
         Question::new(move |go_on, send| {
             let progress = asked.counts().map(|what| Progress::new(send, what, 0, None));
             let go_on = &if progress.is_some() { go_on.of_study() } else { go_on.clone() };
+            let has_scene = self.shown.is_some_and(|it| it.has_scene);
             for sampling in self.samplings {
-                let is_quick = sampling.is_none() && self.rows <= QUICK_ROWS;
+                let is_quick = sampling.is_none() && self.rows <= QUICK_ROWS && !has_scene;
                 let turn = if is_quick { None } else { go_on.turn() };
                 if turn.is_none() && !is_quick {
                     return Err(refused(AnswerError::Stopped));
@@ -199,6 +216,7 @@ impl Stages {
                     go_on: &is_on,
                 };
                 let answer = asked.answer(&options)?;
+                let scene = if has_scene { asked.scene() } else { None };
                 drop(turn);
                 if !go_on.is_on() {
                     return Err(refused(AnswerError::Stopped));
@@ -206,13 +224,16 @@ impl Stages {
                 if !send(json::line(&answer)) {
                     return Ok(());
                 }
-                if let Some(Shown { draws, has_slide }) = self.shown {
+                if let Some(Shown { draws, has_slide, .. }) = self.shown {
                     let mut line = line.clone();
                     asked.add_samples(&mut line, sampling);
                     let mut shown = shown(&answer, &line, draws);
                     asked.add_shown(&mut shown)?;
                     if has_slide {
                         shown["slide"] = json!(slide(&asked, &answer, &line));
+                    }
+                    if has_scene {
+                        shown["scene"] = json!(scene.as_deref().map(base64));
                     }
                     if !send(json::line(&shown)) {
                         return Ok(());
@@ -222,6 +243,12 @@ impl Stages {
             Ok(())
         })
     }
+}
+
+/// A run in three dimensions, as binary glTF, as `--animate FILE.glb` writes it. Its rover is the
+/// node `rover`.
+pub(super) fn scene_of(whose: &str, run: &Trajectory, scenario: &Scenario) -> Vec<u8> {
+    Animation::of(whose, &[grouser_draw::Shown { name: "rover", run, scenario }]).to_glb()
 }
 
 /// The first sentence of an answer over its picture, if it has one.

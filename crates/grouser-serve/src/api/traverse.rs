@@ -15,7 +15,7 @@ use hyper::StatusCode;
 use super::command::CommandLine;
 use super::fields::AskedFields;
 use super::parts::{RunSettings, ScenarioParts};
-use super::staged::{Staged, Stages, refused};
+use super::staged::{Staged, Stages, refused, scene_of};
 use super::wheel_test::add_uncertainty;
 use crate::asked::Question;
 use crate::console::Console;
@@ -38,7 +38,7 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let fields = AskedFields::of(body)?;
     let settings = RunSettings::of(&fields)?;
     let parts = ScenarioParts::of(&fields)?;
-    let stages = Stages::of(&fields, None)?;
+    let stages = Stages::of(&fields, None)?.with_scene(&fields)?;
     fields.finish()?;
     if parts.common().has_every_model() {
         let message = "records are of one model: name one, or leave it out";
@@ -100,6 +100,11 @@ impl Staged for TraverseAsked {
 
     fn whose(&self) -> String {
         title_of(&self.scenario)
+    }
+
+    fn scene(&self) -> Option<Vec<u8>> {
+        let run = self.run.borrow();
+        run.as_ref().map(|run| scene_of(&self.whose(), run, &self.scenario.value))
     }
 
     fn add_samples(&self, line: &mut CommandLine, sampling: Option<Sampling>) {
