@@ -17,7 +17,7 @@ use crate::workspace;
 
 const FILE: &str = "crates/grouser-bench/instructions.txt";
 /// The units that are counted: what a single core does.
-const UNITS: [&str; 12] = [
+const UNITS: [&str; 14] = [
     "force_ns_batched",
     "settle_ns_batched",
     "rft_settle_us",
@@ -29,6 +29,8 @@ const UNITS: [&str; 12] = [
     "traverse_quasi_steady_outcome_ms",
     "control_step_us",
     "control_step_quasi_steady_us",
+    "random_step_us",
+    "stop_and_go_step_us",
     "attitude_curve_ms",
 ];
 /// Counts this near to each other are the same: addresses move a few.

@@ -7,7 +7,7 @@ use grouser::vehicle::dynamics;
 use grouser::vehicle::on_ground::forces_of;
 
 use crate::fixtures::Fixtures;
-use crate::unit::controlled;
+use crate::unit::{Commands, controlled};
 
 /// The largest errors over the fixtures.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +28,10 @@ pub struct Accuracy {
     pub control_step: f64,
     /// The same of quasi-steady steps [m].
     pub control_step_quasi_steady: f64,
+    /// Error of the place where a rover is after steps under random speeds [m].
+    pub random_step: f64,
+    /// Error of the place where a rover is after steps under any speeds, rests among them [m].
+    pub stop_and_go_step: f64,
     /// Error of the equilibrium of forces on the curve of heading offsets, over the weight [-].
     pub heading_curve: f64,
 }
@@ -45,12 +49,17 @@ impl Accuracy {
             let (x, y) = end(scenario);
             (x - exact.0).hypot(y - exact.1)
         };
-        let led = |scenario: &Scenario| controlled(scenario).state().rover().position;
-        let led_exactly = led(&tight(scenario));
-        let miss_of_steps = |scenario: &Scenario| (led(scenario) - led_exactly).norm();
+        let led = |scenario: &Scenario, commands: Commands| {
+            controlled(scenario, commands).state().rover().position
+        };
+        let miss_of_steps = |scenario: &Scenario, commands: Commands| {
+            (led(scenario, commands) - led(&tight(&fixtures.scenario), commands)).norm()
+        };
         Self {
-            control_step: miss_of_steps(scenario),
-            control_step_quasi_steady: miss_of_steps(&fixtures.quasi_steady()),
+            control_step: miss_of_steps(scenario, Commands::Gentle),
+            control_step_quasi_steady: miss_of_steps(&fixtures.quasi_steady(), Commands::Gentle),
+            random_step: miss_of_steps(scenario, Commands::Random),
+            stop_and_go_step: miss_of_steps(scenario, Commands::StopAndGo),
             force: force(fixtures),
             settle: carried(fixtures),
             settle_facets: facets(fixtures),

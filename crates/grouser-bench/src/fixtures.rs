@@ -113,10 +113,11 @@ fn varied(scenario: &Scenario, draws: &mut Draws) -> Scenario {
     scenario
 }
 
-struct Draws(ChaCha8Rng);
+/// Random numbers, the same at each call.
+pub(crate) struct Draws(ChaCha8Rng);
 
 impl Draws {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self::of_stream(1)
     }
 
@@ -124,7 +125,7 @@ impl Draws {
         Self(ChaCha8Rng::seed_from_u64(seed))
     }
 
-    fn between(&mut self, low: f64, high: f64) -> f64 {
+    pub(crate) fn between(&mut self, low: f64, high: f64) -> f64 {
         /// 2^-53: what a 53-bit integer is times to lie in [0, 1).
         const UNIT: f64 = 1.110_223_024_625_156_5e-16;
         let share = (self.0.next_u64() >> 11) as f64 * UNIT;

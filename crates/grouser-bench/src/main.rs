@@ -175,6 +175,14 @@ fn row(unit: Unit, seconds: f64, accuracy: &Accuracy) -> Row {
                 of_way("control_step_quasi_steady_error_mm", accuracy.control_step_quasi_steady);
             ("step of 20 ms at new speeds, quasi-steady", 1e6, "µs", error)
         }
+        Unit::RandomStep => {
+            let error = of_way("random_step_error_mm", accuracy.random_step);
+            ("the same within 30 % at random, dynamic", 1e6, "µs", error)
+        }
+        Unit::StopAndGoStep => {
+            let error = of_way("stop_and_go_step_error_mm", accuracy.stop_and_go_step);
+            ("the same with rests and reversals, dynamic", 1e6, "µs", error)
+        }
         Unit::HeadingCurve => {
             let error = accuracy.heading_curve;
             let shown = format!("{error:.1e} of the weight");

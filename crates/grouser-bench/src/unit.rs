@@ -11,7 +11,7 @@ use grouser::studies::heading::HeadingStudy;
 use grouser::vehicle::DriveLaw;
 use rayon::prelude::*;
 
-use crate::fixtures::Fixtures;
+use crate::fixtures::{Draws, Fixtures};
 
 /// A unit of work, by the key of its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -47,6 +47,10 @@ pub enum Unit {
     ControlStep,
     /// The same as a sequence of steady states.
     ControlStepQuasiSteady,
+    /// The same under random speeds, all accelerations integrated: within 30 % of usual ones.
+    RandomStep,
+    /// The same under any speeds, rests and reversals among them.
+    StopAndGoStep,
     /// The heading offset on 25 slopes up to the steepest.
     HeadingCurve,
     /// Ends of quasi-steady traverses of 20 s on varied soil, on all cores.
@@ -64,7 +68,7 @@ pub struct Done {
 
 impl Unit {
     /// All of them.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Operation,
         Self::ForceSingle,
         Self::ForceBatched,
@@ -79,6 +83,8 @@ impl Unit {
         Self::TraverseQuasiSteadyOutcome,
         Self::ControlStep,
         Self::ControlStepQuasiSteady,
+        Self::RandomStep,
+        Self::StopAndGoStep,
         Self::HeadingCurve,
         Self::Campaign,
     ];
@@ -101,6 +107,8 @@ impl Unit {
             Self::TraverseQuasiSteadyOutcome => "traverse_quasi_steady_outcome_ms",
             Self::ControlStep => "control_step_us",
             Self::ControlStepQuasiSteady => "control_step_quasi_steady_us",
+            Self::RandomStep => "random_step_us",
+            Self::StopAndGoStep => "stop_and_go_step_us",
             Self::HeadingCurve => "attitude_curve_ms",
             Self::Campaign => "campaign_traverses_per_s",
         }
@@ -127,8 +135,10 @@ impl Fixtures {
             Unit::TraverseQuasiSteady => traverse(&self.quasi_steady()),
             Unit::TraverseDynamicOutcome => outcome(&self.scenario),
             Unit::TraverseQuasiSteadyOutcome => outcome(&self.quasi_steady()),
-            Unit::ControlStep => control(&self.scenario),
-            Unit::ControlStepQuasiSteady => control(&self.quasi_steady()),
+            Unit::ControlStep => control(&self.scenario, Commands::Gentle),
+            Unit::ControlStepQuasiSteady => control(&self.quasi_steady(), Commands::Gentle),
+            Unit::RandomStep => control(&self.scenario, Commands::Random),
+            Unit::StopAndGoStep => control(&self.scenario, Commands::StopAndGo),
             Unit::HeadingCurve => self.heading_curve(),
             Unit::Campaign => self.run_campaign(),
         }
@@ -239,8 +249,8 @@ fn outcome(scenario: &Scenario) -> Done {
     Done { count: 1, checksum: run.last().state.position.y }
 }
 
-fn control(scenario: &Scenario) -> Done {
-    let run = controlled(scenario);
+fn control(scenario: &Scenario, commands: Commands) -> Done {
+    let run = controlled(scenario, commands);
     Done { count: CONTROL_STEPS, checksum: run.state().rover().position.y }
 }
 
@@ -249,22 +259,47 @@ const CONTROL_PERIOD: f64 = 0.02;
 /// How many of them are one piece of work: 5 s.
 const CONTROL_STEPS: usize = 250;
 
-/// A rover led through these steps under speeds that change at every one: those of both sides rise
-/// and fall by a fifth within 5 s, and by a tenth against each other within 7 s.
+/// How the speeds of wheels change from step to step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Commands {
+    /// Those of both sides rise and fall by a fifth within 5 s, and by a tenth against each other
+    /// within 7 s.
+    Gentle,
+    /// Each wheel has a speed of its own, up to 30 % above or below the usual one.
+    Random,
+    /// Each wheel has a speed of its own between the usual one backward and forward, and every
+    /// fifth step all rest.
+    StopAndGo,
+}
+
+impl Commands {
+    /// The speed of each wheel over the usual one, in a step; `sides` are left 1, right −1.
+    fn shares(self, step: usize, sides: &[f64], draws: &mut Draws) -> Vec<f64> {
+        let wave = |period: f64| (TAU * CONTROL_PERIOD * step as f64 / period).sin();
+        let of_each = |side: &f64| match self {
+            Self::Gentle => 1.0 + 0.2 * wave(5.0) - 0.1 * wave(7.0) * side,
+            Self::Random => draws.between(0.7, 1.3),
+            Self::StopAndGo if step % 5 == 4 => 0.0,
+            Self::StopAndGo => draws.between(-1.0, 1.0),
+        };
+        sides.iter().map(of_each).collect()
+    }
+}
+
+/// A rover led through these steps under speeds that change at every one.
 ///
 /// # Panics
 /// If a step cannot be computed: those of the fixtures always could.
 #[must_use]
-pub fn controlled(scenario: &Scenario) -> Run {
-    let wave = |time: f64, period: f64| (TAU * time / period).sin();
+pub fn controlled(scenario: &Scenario, commands: Commands) -> Run {
     let mut run = Run::new(scenario).expect("the scenario starts");
     let base = scenario.drive.nominal_rim_speed();
+    let mounts = scenario.rover.mounts().iter();
+    let sides: Vec<f64> = mounts.map(|mount| mount.position.y.signum()).collect();
+    let mut draws = Draws::new();
     for step in 0..CONTROL_STEPS {
-        let time = CONTROL_PERIOD * step as f64;
-        let (both, turn) = (1.0 + 0.2 * wave(time, 5.0), 0.1 * wave(time, 7.0));
-        let of_side = |y: f64| base * (both - turn * y.signum());
-        let rim_speeds: Vec<f64> =
-            scenario.rover.mounts().iter().map(|mount| of_side(mount.position.y)).collect();
+        let shares = commands.shares(step, &sides, &mut draws);
+        let rim_speeds: Vec<f64> = shares.into_iter().map(|share| base * share).collect();
         run.step(&rim_speeds, CONTROL_PERIOD).expect("the rover goes on");
     }
     run

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use grouser::contact::{Model, settle};
 use grouser::document::{self, Overrides, Source};
 use grouser::simulation::{Approach, Run, Scenario};
-use grouser_bench::{Fixtures, Unit, controlled};
+use grouser_bench::{Commands, Fixtures, Unit, controlled};
 
 /// A slow-down by more evaluations, steps or settled wheels shows here as a difference.
 #[test]
@@ -40,10 +40,12 @@ fn the_work_is_as_much_as_it_was() {
         }
     }
     text.push_str("\nwork for 250 steps of 20 ms at new speeds on 10°\n");
-    for scenario in [&fixtures.scenario, &fixtures.quasi_steady()] {
-        let run = controlled(scenario);
-        let method = run.state().method().name();
-        let _ = writeln!(text, "{method}: {:?}", run.state().work());
+    for commands in [Commands::Gentle, Commands::Random, Commands::StopAndGo] {
+        for scenario in [&fixtures.scenario, &fixtures.quasi_steady()] {
+            let run = controlled(scenario, commands);
+            let method = run.state().method().name();
+            let _ = writeln!(text, "{commands:?}, {method}: {:?}", run.state().work());
+        }
     }
     insta::assert_snapshot!(text);
 }
