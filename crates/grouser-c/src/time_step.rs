@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use grouser_core::contact::mechanism::{self, Mechanism};
+use grouser_core::contact::mechanism::{self, Mechanism, Response};
 use grouser_core::contact::{self, SteppingWheel, TimeStep};
 use grouser_core::error::positive;
 use grouser_core::units::Vec3;
@@ -135,7 +135,8 @@ pub unsafe extern "C" fn grouser_time_step(
         };
         let inverse_mass = DMatrix::from_row_slice(motions, forces, inverse_mass);
         let free = DVector::from_row_slice(free);
-        let stepped = wheels.reaction(step, sinkages.iter().copied(), &inverse_mass, &free);
+        let response = Response { inverse_mass, preliminary: free.clone(), free };
+        let stepped = wheels.reaction(step, sinkages.iter().copied(), &response);
         out.iter_mut().zip(&stepped.wheels).for_each(|(out, wheel)| {
             out.write(wheel.into());
         });
@@ -207,15 +208,15 @@ pub unsafe extern "C" fn grouser_mechanism_step(
         let mechanism =
             Mechanism { wheels: &mounted, jacobians, inertia, velocities, with_moments };
         let response = mechanism.response(step.duration_s);
-        let (inverse_mass, free) = response.ok_or_else(|| {
+        let response = response.ok_or_else(|| {
             Failure::new(Status::Computation, "the inertia of the mechanism is singular")
         })?;
-        if !inverse_mass.iter().chain(&free).all(|number| number.is_finite()) {
+        if !response.is_finite() {
             let text = "the response of the mechanism is not finite";
             return Err(Failure::new(Status::NotFinite, text));
         }
         let sinkages = mounted.iter().map(mechanism::MountedWheel::sinkage);
-        let stepped = wheels.reaction(step, sinkages, &inverse_mass, &free);
+        let stepped = wheels.reaction(step, sinkages, &response);
         for (place, (wheel, mounted)) in stepped.wheels.iter().zip(&mounted).enumerate() {
             let wrench = mounted.wrench(&wheel.forces, with_moments);
             let (force_n, moment_nm) = (wrench.force.into(), wrench.moment.into());
@@ -260,8 +261,7 @@ impl Wheels {
         &self,
         step: EngineStep,
         sinkages: impl Iterator<Item = f64>,
-        inverse_mass: &DMatrix<f64>,
-        free: &DVector<f64>,
+        response: &Response,
     ) -> contact::Stepped {
         let stepping = self.each.iter().zip(sinkages).map(|(of, sinkage)| SteppingWheel {
             model: of.model.as_ref(),
@@ -274,10 +274,10 @@ impl Wheels {
             gravity: step.gravity_m_s2,
             damping: self.damping,
             rest_speed: self.rest_speed,
-            inverse_mass,
-            free,
+            inverse_mass: &response.inverse_mass,
+            free: &response.free,
         };
-        step.reaction(&stepping.collect::<Vec<_>>())
+        step.reaction_near(&stepping.collect::<Vec<_>>(), &response.preliminary)
     }
 
     /// The wheels as the mechanism has them.

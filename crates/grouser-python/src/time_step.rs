@@ -1,6 +1,6 @@
 //! The soil's reaction over the time steps of an engine of rigid bodies.
 
-use grouser::contact::mechanism::{Mechanism, MountedWheel, Wrench};
+use grouser::contact::mechanism::{Mechanism, MountedWheel, Response, Wrench};
 use grouser::contact::time_step::{REST_SPEED, SINKAGE_DAMPING};
 use grouser::contact::{Model, Settled, SteppedWheel, SteppingWheel, TimeStep};
 use grouser::document::columns::wheel::WHEEL;
@@ -126,10 +126,9 @@ impl SteppingWheels {
             with_moments,
         };
         let response = errors::caught(|| mechanism.response(duration_s))?;
-        let (inverse_mass, free) = response.ok_or_else(not_finite)?;
+        let response = response.filter(Response::is_finite).ok_or_else(not_finite)?;
         let sinkages: Vec<f64> = wheels.iter().map(MountedWheel::sinkage).collect();
-        let mut all = sinkages.iter().chain(inverse_mass.iter()).chain(free.iter());
-        if !all.all(|number| number.is_finite()) {
+        if !sinkages.iter().all(|sinkage| sinkage.is_finite()) {
             return Err(not_finite());
         }
         let step = TimeStep {
@@ -137,8 +136,8 @@ impl SteppingWheels {
             gravity: gravity_m_s2,
             damping: self.damping,
             rest_speed: self.rest_speed,
-            inverse_mass: &inverse_mass,
-            free: &free,
+            inverse_mass: &response.inverse_mass,
+            free: &response.free,
         };
         let stepping = self.wheels.iter().zip(sinkages);
         let stepping = stepping.map(|(&(wheel, soil, ref model), sinkage)| SteppingWheel {
@@ -148,7 +147,7 @@ impl SteppingWheels {
             sinkage,
         });
         let stepping: Vec<SteppingWheel<'_>> = stepping.collect();
-        let stepped = released(py, || step.reaction(&stepping))?;
+        let stepped = released(py, || step.reaction_near(&stepping, &response.preliminary))?;
         let results = PyArray2::zeros(py, [WHEEL.len() + 2, count], false);
         let wrenches = PyArray2::zeros(py, [count, 6], false);
         {

@@ -61,6 +61,27 @@ pub struct Mechanism<'a> {
     pub with_moments: bool,
 }
 
+/// What a step needs of a mechanism: [`time_step`](super::time_step) has its meaning.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    /// Effective inverse mass, *A* [1/kg, 1/(kg·m)].
+    pub inverse_mass: DMatrix<f64>,
+    /// Velocities at the end of the step without the soil, *u°* [m/s].
+    pub free: DVector<f64>,
+    /// Velocities at the end of the preliminary step, J_u v [m/s]: with the wrenches that acted in
+    /// it, and so near those at the end of the step.
+    pub preliminary: DVector<f64>,
+}
+
+impl Response {
+    /// Whether all its numbers are finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        let motions = self.free.iter().chain(self.preliminary.iter());
+        self.inverse_mass.iter().chain(motions).all(|number| number.is_finite())
+    }
+}
+
 /// Rows of a wheel's Jacobian.
 const ROWS: usize = 6;
 
@@ -113,12 +134,12 @@ impl MountedWheel {
 }
 
 impl Mechanism<'_> {
-    /// The effective inverse mass *A*, and the motion *u°* at the end of a step without the soil;
-    /// nothing if the inertia is singular, or the lengths do not fit.
+    /// How the wheels' motion follows from the soil's forces; nothing if the inertia is singular,
+    /// or the lengths do not fit.
     ///
     /// * `duration`: of the step [s]
     #[must_use]
-    pub fn response(&self, duration: f64) -> Option<(DMatrix<f64>, DVector<f64>)> {
+    pub fn response(&self, duration: f64) -> Option<Response> {
         let (count, size) = (self.wheels.len(), self.velocities.len());
         let lengths = [self.jacobians.len(), self.inertia.len()];
         if lengths != [ROWS * count * size, size * size] {
@@ -143,8 +164,10 @@ impl Mechanism<'_> {
         let inertia = DMatrix::from_row_slice(size, size, self.inertia);
         let response = &motions * inertia.lu().solve(&sides)?;
         let velocities = DVectorView::from_slice(self.velocities, size);
-        let free = motions * velocities - duration * response.column(FORCES * count);
-        Some((response.columns(0, FORCES * count).into_owned(), free))
+        let preliminary = motions * velocities;
+        let free = &preliminary - duration * response.column(FORCES * count);
+        let inverse_mass = response.columns(0, FORCES * count).into_owned();
+        Some(Response { inverse_mass, free, preliminary })
     }
 
     /// A force and a moment about a wheel's hub as generalised forces.
@@ -166,7 +189,7 @@ mod tests {
 
     /// A free body of 2 kg whose hub is its centre of mass: its velocity, then its angular
     /// velocity.
-    fn free_body(wheel: MountedWheel, velocities: &[f64; 6]) -> (DMatrix<f64>, DVector<f64>) {
+    fn free_body(wheel: MountedWheel, velocities: &[f64; 6]) -> Response {
         let unit = DMatrix::<f64>::identity(6, 6);
         let inertia =
             DMatrix::from_diagonal(&DVector::from_row_slice(&[2.0, 2.0, 2.0, 0.1, 0.2, 0.1]));
@@ -193,8 +216,10 @@ mod tests {
 
     #[test]
     fn a_free_wheel_moves_as_newton_says() {
-        let (inverse_mass, free) = free_body(upright(), &[0.3, 0.1, -0.2, 0.0, 5.0, 0.0]);
+        let Response { inverse_mass, free, preliminary } =
+            free_body(upright(), &[0.3, 0.1, -0.2, 0.0, 5.0, 0.0]);
         assert_eq!(free.as_slice(), [0.3, 0.1, -0.2, 0.5]);
+        assert_eq!(preliminary, free, "nothing acted before");
         let diagonal: Vec<f64> =
             (0..MOTIONS).map(|motion| inverse_mass[(motion, motion)]).collect();
         // 1/m along the axes, and r_s²/I for the rim.
@@ -207,7 +232,9 @@ mod tests {
     #[test]
     fn what_acted_before_is_taken_back() {
         let held = Wrench { force: Vec3::new(4.0, 0.0, 0.0), moment: Vec3::new(0.0, 2.0, 0.0) };
-        let (_, free) = free_body(MountedWheel { held, ..upright() }, &[0.0; 6]);
+        let Response { free, preliminary, .. } =
+            free_body(MountedWheel { held, ..upright() }, &[0.0; 6]);
+        assert_eq!(preliminary.as_slice(), [0.0; MOTIONS]);
         // −Δt F/m, and −Δt M r_s/I.
         assert!((free[0] + 0.01 * 4.0 / 2.0).abs() < 1e-15);
         assert!((free[3] + 0.01 * 2.0 * 0.1 / 0.2).abs() < 1e-15);

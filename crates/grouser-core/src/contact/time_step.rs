@@ -23,7 +23,7 @@
 //! and Crossley (1975): there is no force without sinkage, no pull on a wheel that leaves, and no
 //! effect at rest.
 
-use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+use nalgebra::{DMatrix, DVector, Dyn, LU, SMatrix, SVector};
 
 use super::discrepancy;
 use super::forces::WheelForces;
@@ -125,9 +125,12 @@ pub struct Stepped {
     pub wheels: Vec<SteppedWheel>,
     /// What is left of *u − u° − Δt A f* [m/s], its largest part.
     pub residual: f64,
-    /// How many steps of Newton's method it took.
+    /// How many rounds of Newton's method it took.
     pub rounds: u32,
 }
+
+/// Derivatives of the residual, ready to solve with.
+type Factors = LU<f64, Dyn, Dyn>;
 
 /// The reaction, as far as the search knows it.
 struct Try {
@@ -139,30 +142,70 @@ struct Try {
 impl TimeStep<'_> {
     /// The reaction of the soil on wheels that a mechanism couples.
     ///
-    /// Newton's method, with the model's derivatives by differences and steps that are halved until
-    /// they lead nearer. Where none does, the nearest is taken, and `residual` says how near that
-    /// is.
-    ///
     /// Wheels deeper than the axle have the forces of axle depth.
     #[must_use]
     pub fn reaction(&self, wheels: &[SteppingWheel<'_>]) -> Stepped {
+        self.reaction_near(wheels, self.free)
+    }
+
+    /// The same reaction, sought from a motion near the one at the end of the step, which saves
+    /// most of the search: such as the one that the forces of the step before lead to.
+    ///
+    /// Newton's method, with the model's derivatives by differences, kept while they lead on, and
+    /// steps that are halved until they lead nearer. Where none does, the nearest is taken, and
+    /// `residual` says how near that is.
+    ///
+    /// * `motion`: of the wheels [m/s], as long as [`free`](Self::free)
+    #[must_use]
+    pub fn reaction_near(&self, wheels: &[SteppingWheel<'_>], motion: &DVector<f64>) -> Stepped {
         /// Velocities agree to this share of the rest speed [-]: forces then do to 1e-6.
         const AGREED: f64 = 1e-6;
         const MOST_ROUNDS: u32 = 40;
-        const MOST_HALVINGS: i32 = 20;
-        let mut best = self.attempt(wheels, self.free.clone());
+        let mut best = self.attempt(wheels, motion.clone());
+        let mut derivatives = None;
         let mut rounds = 0;
         while best.residual.amax() > AGREED * self.rest_speed && rounds < MOST_ROUNDS {
             rounds += 1;
-            let Some(step) = self.jacobian(wheels, &best).lu().solve(&best.residual) else { break };
-            let shorter = |halvings| &best.motion - &step * wide::powi(0.5, halvings);
-            let nearer = (0..MOST_HALVINGS)
-                .map(|halvings| self.attempt(wheels, shorter(halvings)))
-                .find(|next| next.residual.norm() < best.residual.norm());
-            let Some(next) = nearer else { break };
+            if let Some(kept) = &derivatives
+                && let Some(next) = self.kept_step(wheels, &best, kept)
+            {
+                best = next;
+                continue;
+            }
+            let fresh = self.jacobian(wheels, &best).lu();
+            let Some(next) = self.halved_step(wheels, &best, &fresh) else { break };
             best = next;
+            derivatives = Some(fresh);
         }
         Stepped { wheels: best.wheels, residual: best.residual.amax(), rounds }
+    }
+
+    /// A step by derivatives from further away; nothing where it leaves more than a quarter.
+    fn kept_step(
+        &self,
+        wheels: &[SteppingWheel<'_>],
+        best: &Try,
+        derivatives: &Factors,
+    ) -> Option<Try> {
+        /// Rounds by derivatives that are there cost a fifth of the others.
+        const MOST_LEFT: f64 = 0.25;
+        let next = self.attempt(wheels, &best.motion - derivatives.solve(&best.residual)?);
+        (next.residual.norm() < MOST_LEFT * best.residual.norm()).then_some(next)
+    }
+
+    /// A step, halved until it leads nearer; nothing where none does.
+    fn halved_step(
+        &self,
+        wheels: &[SteppingWheel<'_>],
+        best: &Try,
+        derivatives: &Factors,
+    ) -> Option<Try> {
+        const MOST_HALVINGS: i32 = 20;
+        let step = derivatives.solve(&best.residual)?;
+        let shorter = |halvings| &best.motion - &step * wide::powi(0.5, halvings);
+        (0..MOST_HALVINGS)
+            .map(|halvings| self.attempt(wheels, shorter(halvings)))
+            .find(|next| next.residual.norm() < best.residual.norm())
     }
 
     fn attempt(&self, wheels: &[SteppingWheel<'_>], motion: DVector<f64>) -> Try {
