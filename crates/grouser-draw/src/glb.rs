@@ -153,7 +153,10 @@ fn strip(strips: &mut Solid, actor: &Actor, poses: &[Pose; 2], frame: usize) {
             [foot - half + lift, foot + half + lift]
         });
         if (a[0] - b[0]).norm().max((a[1] - b[1]).norm()) > 1e-6 {
-            strips.face(&[a[0], b[0], b[1], a[1]], Vec3::z());
+            // A wheel that goes back leaves its strip the other way round.
+            let is_back = (b[0] - a[0]).cross(&(a[1] - a[0])).z < 0.0;
+            let (from, to) = if is_back { (b, a) } else { (a, b) };
+            strips.face(&[from[0], to[0], to[1], from[1]], Vec3::z());
         }
     }
 }

@@ -217,6 +217,26 @@ fn wheels_turn_as_fast_as_in_the_run() {
     assert!((turned - 2.0 * speed).abs() < 1e-4, "{turned} of {}", 2.0 * speed);
 }
 
+/// Viewers light a face from the side from which its corners are counterclockwise.
+#[test]
+fn tracks_face_upwards_whichever_way_the_rover_goes() {
+    for speed in [0.06, -0.06] {
+        let speed = format!("scenario.drive.rim_speed_m_s={speed}");
+        let file = animation(&["scenario.duration_s=2", &speed]).0.to_glb();
+        let (document, bytes) = chunks(&file);
+        let meshes = document["meshes"].as_array().expect("meshes");
+        let tracks: Vec<&Value> = meshes.iter().filter(|mesh| mesh["name"] == "track").collect();
+        assert!(!tracks.is_empty(), "{speed}");
+        for track in tracks {
+            let corners = number(&track["primitives"][0]["attributes"]["POSITION"]);
+            let (places, _) = numbers(&document, bytes, corners);
+            for [ax, ay, _, bx, by, _, cx, cy, ..] in places.as_chunks::<12>().0 {
+                assert!((bx - ax) * (cy - ay) > (by - ay) * (cx - ax), "{speed}");
+            }
+        }
+    }
+}
+
 /// The extremes: level and steep ground, a rover that is stuck, slides, tips over, turns on the
 /// spot or drives out of sight.
 #[test]
