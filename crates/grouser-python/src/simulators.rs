@@ -275,17 +275,17 @@ impl Simulators {
         dt_s: f64,
     ) -> PyResult<Slopes<'py>> {
         let rims = self.rim_speeds(&commands, are_rim_speeds, dt_s)?;
-        let Some(rims) = rims.first() else {
+        let Some(rims) = rims.into_iter().next() else {
             let message = "there is no rover".to_owned();
             return Err(errors::parameter(message, "scenarios", None, "a rover"));
         };
-        let failed = "the run has failed: it has no next step";
-        let found = threads::released(py, || {
+        let run = threads::released(py, || {
             let rovers = self.lock();
-            let is_sound = rovers[0].failure.is_none();
-            is_sound.then(|| rovers[0].rover.run().linear_step(rims, dt_s))
+            rovers[0].failure.is_none().then(|| rovers[0].rover.run().clone())
         })?;
-        let found = found.ok_or_else(|| errors::not_found(failed))?;
+        let failed = "the run has failed: it has no next step";
+        let run = run.ok_or_else(|| errors::not_found(failed))?;
+        let found = listening(py, move |_| run.linear_step(&rims, dt_s))?;
         let LinearStep { before, after, slopes } = found.map_err(|why| match why {
             NoLinearStep::Run(error) => errors::of_simulation(&error),
             why => errors::not_found(&why.to_string()),

@@ -304,11 +304,17 @@ def test_an_environment_of_another_scenario_refuses_a_state() -> None:
     state = env_begun("level").save()
     for other, message in [
         (gym.LevelTraverseEnv(slope_deg=(3.0, 4.0)), "another scenario"),
-        (gym.PathFollowingEnv(), "damaged, or no state|another scenario"),
-        (gym.LevelTraverseVectorEnv(3), "1 states for 3 rovers"),
+        (gym.PathFollowingEnv(), "another kind of environment"),
+        (gym.LevelTraverseVectorEnv(1), "another kind of environment"),
     ]:
+        other.reset(seed=5)
+        before = other.save()
         with pytest.raises(gr.ParameterError, match=message):
             other.restore(state)
+        assert other.save().rovers == before.rovers, "no rover has moved"
+    levels = env_begun("levels").save()
+    with pytest.raises(gr.ParameterError, match="3 states for 2 rovers"):
+        gym.LevelTraverseVectorEnv(2).restore(levels)
     with pytest.raises(gr.ParameterError, match="must be an EnvState"):
         gym.LevelTraverseEnv().restore(b"")
     path = env_begun("path").save()

@@ -121,14 +121,18 @@ class Rovers:
         own = {name: getattr(self, name) for name in self._changing}
         return EnvState(self.batch.save(), copy.deepcopy({"own": own, **memory}))
 
-    def restore(self, state: EnvState) -> dict[str, Any]:
-        """Sets the rovers to a state, and returns what the environment keeps beside them."""
+    def restore(self, state: EnvState, *names: str) -> dict[str, Any]:
+        """Sets the rovers to a state, and returns what the environment keeps beside them, by these
+        names."""
         if not isinstance(state, EnvState):
             kind = type(state).__name__
             raise ParameterError(f"state is of type {kind}, it must be an EnvState", "state")
-        self.batch.restore(state.rovers)
         memory: dict[str, Any] = copy.deepcopy(dict(state.memory))
-        for name, value in memory.pop("own").items():
+        own = memory.pop("own", {})
+        if own.keys() != set(self._changing) or memory.keys() != set(names):
+            raise ParameterError("the state is of another kind of environment", "state")
+        self.batch.restore(state.rovers)
+        for name, value in own.items():
             setattr(self, name, value)
         return memory
 

@@ -83,10 +83,10 @@ class OneRoverEnv(gymnasium.Env[Floats, Floats]):
         Raises
         ------
         ParameterError
-            For a state of another scenario, another path, or another version of Grouser; nothing
-            changes then.
+            For a state of another kind of environment, another scenario, another path, or another
+            version of Grouser; nothing changes then.
         """
-        memory = self._rovers.restore(state)
+        memory = self._rovers.restore(state, "random", "paths")
         self.np_random, self._pictures.paths = memory["random"], memory["paths"]
         return self._observed(), self._rovers.info(0)
 

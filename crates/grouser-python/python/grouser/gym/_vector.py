@@ -151,10 +151,10 @@ class ManyRoversEnv(VectorEnv[Floats, Floats, NDArray[Any]]):
         Raises
         ------
         ParameterError
-            For a state of another scenario, another path, another number of rovers, or another
-            version of Grouser; nothing changes then.
+            For a state of another kind of environment, another scenario, another path, another
+            number of rovers, or another version of Grouser; nothing changes then.
         """
-        memory = self._rovers.restore(state)
+        memory = self._rovers.restore(state, "random", "steps", "ended", "paths")
         self._randoms, self._pictures.paths = memory["random"], memory["paths"]
         self._steps, self._ended = memory["steps"], memory["ended"]
         everyone = np.ones(self.num_envs, dtype=np.bool_)
