@@ -436,3 +436,22 @@ def test_the_learning_example_learns_to_turn() -> None:
     assert example.turns(means[-1][None], *below)[0] > example.turns(means[0][None], *below)[0] == 0.0
     learned, straight_on = (example.judged(policy, episodes=6, steps=24) for policy in (means[-1], means[0]))
     assert learned > straight_on
+
+
+def test_proximal_policy_optimisation_learns_to_hold_the_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """In ten updates, on slopes and soils that it was not trained on. Seeds 1 to 6 gained 420 to 468; the
+    sum of a minute's rewards is 120 at most, and about -400 straight on."""
+    pytest.importorskip("jax", reason="the example needs JAX: pip install jax")
+    monkeypatch.syspath_prepend(Path(__file__).resolve().parents[1] / "examples")
+    monkeypatch.setattr(sys, "argv", ["ppo_level_line.py", "--updates", "10", "--seed", "1"])
+    example: Any = importlib.import_module("ppo_level_line")
+    example.main()
+    rows = [line.split(" mean return ") for line in capsys.readouterr().out.splitlines()]
+    found = {row[0].strip(): float(row[1]) for row in rows if len(row) == 2}
+    assert found["trained"] > found["untrained"] + 200.0
+    # The same seed learns the same policy, bit for bit.
+    one, other = (example.learn(1, seed=2)[1].parameters for _ in range(2))
+    leaves = example.jax.tree.leaves
+    assert [it.tobytes() for it in leaves(one)] == [it.tobytes() for it in leaves(other)]
