@@ -237,17 +237,19 @@ def learn(updates: int, seed: int = 1, clock: Clock | None = None) -> tuple[Poli
     return first, policy
 
 
-def mean_return(act: Controller, seed: int = 10**6) -> float:
-    """Mean over whole episodes of the sum of rewards, on slopes and soils not trained on."""
+def judged(act: Controller, seed: int = 10**6) -> tuple[float, float]:
+    """Mean of the sums of rewards of whole episodes, and root mean square offset from the line
+    [mm] until they ended, on slopes and soils not trained on."""
     envs = environments(JUDGED_ROVERS)
     observation, _ = envs.reset(seed=seed)
-    total, driving = np.zeros(JUDGED_ROVERS), np.ones(JUDGED_ROVERS, dtype=bool)
+    total, driving, offsets = np.zeros(JUDGED_ROVERS), np.ones(JUDGED_ROVERS, dtype=bool), []
     for _ in range(JUDGED_STEPS):
         observation, reward, terminated, _, _ = envs.step(act(observation))
         total += np.where(driving, reward, 0.0)
         driving &= ~terminated
+        offsets.extend(1e3 * observation[driving, 0])
     envs.close()
-    return float(total.mean())
+    return float(total.mean()), float(np.sqrt(np.mean(np.square(offsets))))
 
 
 def linear() -> Controller:
@@ -280,7 +282,8 @@ def main() -> None:
     if options.compare:
         policies["linear"] = linear()
     for name, policy in policies.items():
-        print(f"{name:10} mean return {mean_return(policy):7.1f}")
+        total, offset = judged(policy)
+        print(f"{name:9}: mean return {total:6.1f}, RMS offset {offset:5.1f} mm")
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 import subprocess
 import sys
 import textwrap
@@ -448,8 +449,8 @@ def test_proximal_policy_optimisation_learns_to_hold_the_line(
     monkeypatch.setattr(sys, "argv", ["ppo_level_line.py", "--updates", "10", "--seed", "1"])
     example: Any = importlib.import_module("ppo_level_line")
     example.main()
-    rows = [line.split(" mean return ") for line in capsys.readouterr().out.splitlines()]
-    found = {row[0].strip(): float(row[1]) for row in rows if len(row) == 2}
+    printed = re.findall(r"^(\w+) *: mean return +([-\d.]+)", capsys.readouterr().out, re.MULTILINE)
+    found = {name: float(total) for name, total in printed}
     assert found["trained"] > found["untrained"] + 200.0
     # The same seed learns the same policy, bit for bit.
     one, other = (example.learn(1, seed=2)[1].parameters for _ in range(2))
