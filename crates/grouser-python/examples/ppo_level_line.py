@@ -147,13 +147,15 @@ def updated(parameters: Parameters, moments: Any, drives: Drives, parts: Any, si
 
     def step(learned: Any, part: Any) -> tuple[Any, None]:
         """One step of Adam, [KingmaBa2015], Algorithm 1, with the numbers proposed there."""
-        parameters, (mean, square, count) = learned
+        parameters, (mean, square, before) = learned
+        count = before + 1
         gradient = jax.grad(loss)(parameters, *jax.tree.map(lambda it: it[part], rows))
         mean = jax.tree.map(lambda m, g: 0.9 * m + 0.1 * g, mean, gradient)
         square = jax.tree.map(lambda v, g: 0.999 * v + 0.001 * g**2, square, gradient)
-        rate = size * jnp.sqrt(1.0 - 0.999 ** (count + 1)) / (1.0 - 0.9 ** (count + 1))
-        move = lambda p, m, v: p - rate * m / (jnp.sqrt(v) + 1e-8)  # noqa: E731
-        return (jax.tree.map(move, parameters, mean, square), (mean, square, count + 1)), None
+        rate = size * jnp.sqrt(1.0 - 0.999**count) / (1.0 - 0.9**count)
+        moves = jax.tree.map(lambda m, v: rate * m / (jnp.sqrt(v) + 1e-8), mean, square)
+        parameters = jax.tree.map(jnp.subtract, parameters, moves)
+        return (parameters, (mean, square, count)), None
 
     return jax.lax.scan(step, (parameters, moments), parts)[0]
 
