@@ -32,7 +32,8 @@ KEPT = 0.25
 def turns(policies: Floats, y_m: Floats, integral_m_s: Floats, yaw_deg: Floats) -> Floats:
     """Turn to the left of each policy, a row of three numbers."""
     inputs = np.stack([y_m, integral_m_s, yaw_deg], axis=1)
-    return np.clip((policies * inputs).sum(axis=1), -1.0, 1.0)
+    turn: Floats = np.clip((policies * inputs).sum(axis=1), -1.0, 1.0)
+    return turn
 
 
 def returns(policies: Floats, seed: int, steps: int) -> Floats:
