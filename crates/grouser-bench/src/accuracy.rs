@@ -7,7 +7,7 @@ use grouser::vehicle::dynamics;
 use grouser::vehicle::on_ground::forces_of;
 
 use crate::fixtures::Fixtures;
-use crate::unit::{Commands, controlled};
+use crate::unit::{StepCommands, controlled};
 
 /// The largest errors over the fixtures.
 #[derive(Clone, Copy, Debug)]
@@ -49,17 +49,20 @@ impl Accuracy {
             let (x, y) = end(scenario);
             (x - exact.0).hypot(y - exact.1)
         };
-        let led = |scenario: &Scenario, commands: Commands| {
+        let led = |scenario: &Scenario, commands: StepCommands| {
             controlled(scenario, commands).state().rover().position
         };
-        let miss_of_steps = |scenario: &Scenario, commands: Commands| {
+        let miss_of_steps = |scenario: &Scenario, commands: StepCommands| {
             (led(scenario, commands) - led(&tight(&fixtures.scenario), commands)).norm()
         };
         Self {
-            control_step: miss_of_steps(scenario, Commands::Gentle),
-            control_step_quasi_steady: miss_of_steps(&fixtures.quasi_steady(), Commands::Gentle),
-            random_step: miss_of_steps(scenario, Commands::Random),
-            stop_and_go_step: miss_of_steps(scenario, Commands::StopAndGo),
+            control_step: miss_of_steps(scenario, StepCommands::Gentle),
+            control_step_quasi_steady: miss_of_steps(
+                &fixtures.quasi_steady(),
+                StepCommands::Gentle,
+            ),
+            random_step: miss_of_steps(scenario, StepCommands::Random),
+            stop_and_go_step: miss_of_steps(scenario, StepCommands::StopAndGo),
             force: force(fixtures),
             settle: carried(fixtures),
             settle_facets: facets(fixtures),

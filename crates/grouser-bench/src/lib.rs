@@ -13,7 +13,7 @@ mod unit;
 pub use accuracy::Accuracy;
 pub use arrays::Arrays;
 pub use fixtures::Fixtures;
-pub use unit::{Commands, Done, OPERATIONS_OF_A_FORCE, Unit, controlled};
+pub use unit::{Done, OPERATIONS_OF_A_FORCE, StepCommands, Unit, controlled};
 
 /// Threads that [`Unit::Campaign`] uses.
 #[must_use]

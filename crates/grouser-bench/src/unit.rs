@@ -135,10 +135,10 @@ impl Fixtures {
             Unit::TraverseQuasiSteady => traverse(&self.quasi_steady()),
             Unit::TraverseDynamicOutcome => outcome(&self.scenario),
             Unit::TraverseQuasiSteadyOutcome => outcome(&self.quasi_steady()),
-            Unit::ControlStep => control(&self.scenario, Commands::Gentle),
-            Unit::ControlStepQuasiSteady => control(&self.quasi_steady(), Commands::Gentle),
-            Unit::RandomStep => control(&self.scenario, Commands::Random),
-            Unit::StopAndGoStep => control(&self.scenario, Commands::StopAndGo),
+            Unit::ControlStep => control(&self.scenario, StepCommands::Gentle),
+            Unit::ControlStepQuasiSteady => control(&self.quasi_steady(), StepCommands::Gentle),
+            Unit::RandomStep => control(&self.scenario, StepCommands::Random),
+            Unit::StopAndGoStep => control(&self.scenario, StepCommands::StopAndGo),
             Unit::HeadingCurve => self.heading_curve(),
             Unit::Campaign => self.run_campaign(),
         }
@@ -249,7 +249,7 @@ fn outcome(scenario: &Scenario) -> Done {
     Done { count: 1, checksum: run.last().state.position.y }
 }
 
-fn control(scenario: &Scenario, commands: Commands) -> Done {
+fn control(scenario: &Scenario, commands: StepCommands) -> Done {
     let run = controlled(scenario, commands);
     Done { count: CONTROL_STEPS, checksum: run.state().rover().position.y }
 }
@@ -261,7 +261,7 @@ const CONTROL_STEPS: usize = 250;
 
 /// How the speeds of wheels change from step to step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Commands {
+pub enum StepCommands {
     /// Those of both sides rise and fall by a fifth within 5 s, and by a tenth against each other
     /// within 7 s.
     Gentle,
@@ -272,7 +272,7 @@ pub enum Commands {
     StopAndGo,
 }
 
-impl Commands {
+impl StepCommands {
     /// The speed of each wheel over the usual one, in a step; `sides` are left 1, right −1.
     fn shares(self, step: usize, sides: &[f64], draws: &mut Draws) -> Vec<f64> {
         let wave = |period: f64| (TAU * CONTROL_PERIOD * step as f64 / period).sin();
@@ -291,7 +291,7 @@ impl Commands {
 /// # Panics
 /// If a step cannot be computed: those of the fixtures always could.
 #[must_use]
-pub fn controlled(scenario: &Scenario, commands: Commands) -> Run {
+pub fn controlled(scenario: &Scenario, commands: StepCommands) -> Run {
     let mut run = Run::new(scenario).expect("the scenario starts");
     let base = scenario.drive.nominal_rim_speed();
     let mounts = scenario.rover.mounts().iter();

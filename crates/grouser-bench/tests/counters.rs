@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use grouser::contact::{Model, settle};
 use grouser::document::{self, Overrides, Source};
 use grouser::simulation::{Approach, Run, Scenario};
-use grouser_bench::{Commands, Fixtures, Unit, controlled};
+use grouser_bench::{Fixtures, StepCommands, Unit, controlled};
 
 /// A slow-down by more evaluations, steps or settled wheels shows here as a difference.
 #[test]
@@ -40,7 +40,7 @@ fn the_work_is_as_much_as_it_was() {
         }
     }
     text.push_str("\nwork for 250 steps of 20 ms at new speeds on 10°\n");
-    for commands in [Commands::Gentle, Commands::Random, Commands::StopAndGo] {
+    for commands in [StepCommands::Gentle, StepCommands::Random, StepCommands::StopAndGo] {
         for scenario in [&fixtures.scenario, &fixtures.quasi_steady()] {
             let run = controlled(scenario, commands);
             let method = run.state().method().name();
