@@ -19,7 +19,7 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-VIEWS = ("heading", "wheel", "drive", "scene", "mission", "map", "design", "campaigns", "fit")
+VIEWS = ("heading", "wheel", "drive", "scene", "mission", "map", "design", "campaigns", "fit", "log")
 #: The sessions that views are looked at with, where they show little by themselves.
 SEEN = {
     "map": "view=map&at=10,20&from=-35,-35&to=35,35",
@@ -28,6 +28,7 @@ SEEN = {
     "design": "view=design&belief=nominal",
     "campaigns": "view=campaigns&runs=2000&out=looked",
     "fit": "view=fit&soil=toyoura&belief=nominal&data=tests.csv",
+    "log": "view=log&soil=toyoura&belief=nominal&log=drive.csv",
 }
 #: What the first look at a view has besides, which takes long, and without which there is no picture.
 PICTURED = {"design": "&trade=energy_j_per_m,wheel_mass_kg"}
@@ -60,6 +61,8 @@ class Server:
         stand = ["wheel-test", "--slip-ratio", "-0.6:0.8:0.2", "--trials", "3", "--noise-n", "0.3", "--format", "csv"]
         tests = subprocess.run([self.program, *stand], capture_output=True, text=True, check=True)
         Path(self.place.name, "tests.csv").write_text(tests.stdout, encoding="utf-8")
+        drive = ["traverse", "--soil", "toyoura", "--slope-deg", "8", "--telemetry", "drive.csv"]
+        subprocess.run([self.program, *drive], cwd=self.place.name, capture_output=True, check=True)
         self.process = subprocess.Popen(
             [self.program, "serve", ".", "--no-open"], cwd=self.place.name, stdout=subprocess.PIPE, text=True
         )
@@ -538,6 +541,38 @@ def use_fit(looks, browser, server):
     page.context.close()
 
 
+def use_log(looks, browser, server):
+    page, flaws = opened(browser, server, "view=log&soil=toyoura&log=drive.csv")
+    page.locator("#start").press("Enter")
+    settled(page)
+    command = page.locator("#command").inner_text()
+    points = [f"finding: {it}" for it in server.run(command)["points_to"]]
+    found = page.locator("#found").inner_text()
+    looks.claim("a log points to what the program says", [] if found == points[0] else [f"{found}, the program has {points}"])
+    page.get_by_role("spinbutton", name=re.compile("Angle of internal friction")).fill("30")
+    page.locator("#start").press("Enter")
+    settled(page)
+    found = page.locator("#found").inner_text()
+    looks.claim("another soil is found out by a log", [] if "soil" in found else [f"it is {found}"])
+    looks.claim("the keyboard reaches everything about a log", unreached(page))
+    page.locator("#log").select_option("tests.csv")
+    page.locator("#start").press("Enter")
+    settled(page)
+    said = page.locator("#why-none").inner_text()
+    looks.claim("what is no log is refused in the engine's words", [] if "wheel_speed_rad_s" in said or "time" in said else [said])
+    looks.claim("nothing goes wrong about a log", [it for it in flaws if "422" not in it])
+    page.context.close()
+
+
+def use_locked(looks, browser, server):
+    context = browser.new_context()
+    page = context.new_page()
+    page.goto(server.address.split("?")[0] + "#soil=toyoura")
+    text = page.locator("body").inner_text()
+    looks.claim("a link without the token says what is missing", [] if "The token is missing" in text else [text])
+    context.close()
+
+
 def slide_differs(page):
     """What is wrong with the picture that a key saves."""
     page.evaluate("document.activeElement.blur()")
@@ -594,6 +629,11 @@ def use(looks, browser, server):
     page.wait_for_timeout(1000)
     said = page.locator(".slider .error:not(:empty)").all_inner_texts()
     looks.claim("an error stands beside its cause", [] if said and "it must be 5 to 60" in said[0] else [f"there is {said}"])
+    friction.fill("")
+    said = page.locator(".slider .error:not(:empty)").all_inner_texts()
+    looks.claim("what is no number is said", [] if said and "it must be a number" in said[0] else [f"there is {said}"])
+    friction.blur()
+    looks.claim("and gives way to the last one", [] if friction.input_value() == "99" else [friction.input_value()])
     friction.fill("38")
     settled(page)
     looks.claim("an error goes with its cause", page.locator(".slider .error:not(:empty)").all_inner_texts())
@@ -627,6 +667,8 @@ def use(looks, browser, server):
     use_design(looks, browser, server)
     use_campaigns(looks, browser, server)
     use_fit(looks, browser, server)
+    use_log(looks, browser, server)
+    use_locked(looks, browser, server)
     use_map(looks, browser, server)
 
 

@@ -42,7 +42,7 @@ export class DesignAnswer extends StudyAnswer {
    * @param {string[]} all
    */
   others(all) {
-    return all.filter(Boolean).filter((it) => !it.startsWith("Between "));
+    return all.filter((it) => !it.startsWith("Between "));
   }
 
   /** @override */

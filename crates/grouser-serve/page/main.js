@@ -7,6 +7,7 @@ import { DesignAnswer, about as aboutDesign } from "./design.js";
 import { Dial } from "./dial.js";
 import { DriveAnswer, aboutMission } from "./drive.js";
 import { FitAnswer, choicesOfFit } from "./fit.js";
+import { LogAnswer } from "./log.js";
 import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
 import { MapAnswer, offer, saidOf } from "./map.js";
 import { addLeg, legsTable } from "./legs.js";
@@ -36,6 +37,8 @@ let design;
 let campaigns;
 /** @type {FitAnswer | undefined} */
 let fit;
+/** @type {LogAnswer | undefined} */
+let log;
 /** @type {string[]} */
 let missions = [];
 /** @type {string[]} */
@@ -49,10 +52,10 @@ const MOST_PINNED = 2;
 const VIEWS = /** @type {Record<string, Part[]>} */ ({
   heading: ["rover", "soil", "belief", "model"], wheel: ["wheel", "soil", "belief", "model"], drive: ["rover", "soil", "model"],
   map: ["dem", "rover", "soil", "model"], design: ["design", "belief"], campaigns: ["campaign"],
-  fit: ["data", "wheel", "soil", "model", "belief"],
+  fit: ["data", "wheel", "soil", "model", "belief"], log: ["log", "rover", "soil", "model", "belief"],
 });
-/** @typedef {"data" | "campaign" | "design" | "dem" | "rover" | "soil" | "wheel" | "model" | "belief"} Part */
-const PARTS = /** @type {Part[]} */ (["data", "campaign", "design", "dem", "rover", "soil", "wheel", "model", "belief"]);
+/** @typedef {"log" | "data" | "campaign" | "design" | "dem" | "rover" | "soil" | "wheel" | "model" | "belief"} Part */
+const PARTS = /** @type {Part[]} */ (["log", "data", "campaign", "design", "dem", "rover", "soil", "wheel", "model", "belief"]);
 
 const asking = new Asking();
 const [answer, place] = [byId("answer"), byId("sliders")];
@@ -74,7 +77,7 @@ function complain(error) {
 
 /** The answer of the view. */
 function current() {
-  return /** @type {Record<string, typeof wheel | typeof map | typeof drive | typeof design | typeof campaigns | typeof fit>} */ ({ wheel, map, drive, design, campaigns, fit })[session.view] ?? cards[0];
+  return /** @type {Record<string, typeof wheel | typeof map | typeof drive | typeof design | typeof campaigns | typeof fit | typeof log>} */ ({ wheel, map, drive, design, campaigns, fit, log })[session.view] ?? cards[0];
 }
 
 let waiting = 0;
@@ -85,6 +88,8 @@ function moved() {
   if (waiting) return;
   waiting = requestAnimationFrame(() => {
     waiting = 0;
+    // The command is of the numbers before, until the answer is there.
+    out.classList.add("old");
     current()?.ask(session);
   });
 }
@@ -136,7 +141,7 @@ function group(title, inside, isOpen) {
 /** Makes the sliders of the documents that the session names, then asks. */
 function begin() {
   if (!Object.hasOwn(VIEWS, session.view)) session.view = "heading";
-  const [isMap, isDrive, isFit] = ["map", "drive", "fit"].map((view) => view === session.view);
+  const [isMap, isDrive, isFit, isLog] = ["map", "drive", "fit", "log"].map((view) => view === session.view);
   const isWheel = isFit || session.view === "wheel";
   for (const view of Object.keys(VIEWS)) {
     const id = `view-${view}`;
@@ -151,6 +156,7 @@ function begin() {
   design?.stop();
   campaigns?.stop();
   fit?.stop();
+  log?.stop();
   const begun = () => announce("computing …");
   if (session.view === "campaigns") {
     asking.ask("campaign-task", aboutCampaign({ ...session, runs: 0 }), (line) => {
@@ -204,6 +210,12 @@ function begin() {
       wheel = new WheelAnswer(ended);
       wheel.keys = keys;
       answer.replaceChildren(wheel.element);
+    } else if (isLog) {
+      log = new LogAnswer(ended, begun);
+      place.replaceChildren(
+        element("h2", {}, ["Move"]), group(`Soil: ${names["soil"]}`, of("soil"), true), group(`Rover: ${names["rover"]}`, of("rover"), false),
+      );
+      answer.replaceChildren(log.element);
     } else {
       const gravity = keys.filter((key) => key.key === GRAVITY);
       const slope = isMap ? courses() : isDrive ? run() : [
@@ -330,11 +342,13 @@ function beginMission() {
  * @param {number} usual
  */
 function intoFolder(usual) {
-  const runs = element("input", { type: "number", id: "campaign.runs", min: 1, value: session.runs || usual, onchange: (/** @type {any} */ event) => {
-    session.runs = Math.max(0, Math.round(event.target.valueAsNumber || 0));
+  const runs = element("input", { type: "number", id: "campaign.runs", min: 1, step: 1, required: true, value: session.runs || usual, onchange: (/** @type {any} */ event) => {
+    if (!event.target.reportValidity()) return;
+    session.runs = event.target.valueAsNumber;
     toAddress(session, pinned);
   } });
-  const out = element("input", { type: "text", id: "out", value: session.out, onchange: (/** @type {any} */ event) => {
+  const out = element("input", { type: "text", id: "out", required: true, value: session.out, onchange: (/** @type {any} */ event) => {
+    if (!event.target.reportValidity()) return;
     session.out = event.target.value;
     toAddress(session, pinned);
   } });
@@ -360,6 +374,7 @@ function run() {
 
 /** @param {Error | undefined} error */
 function ended(error) {
+  out.classList.remove("old");
   complain(error);
   announce(error ? "no answer" : said());
 }
@@ -371,6 +386,7 @@ function said() {
   if (session.view === "design") return design?.said() ?? "";
   if (session.view === "campaigns") return campaigns?.said() ?? "";
   if (session.view === "fit") return fit?.said() ?? "";
+  if (session.view === "log") return log?.said() ?? "";
   if (session.view === "map") return map ? saidOf(map) : "";
   const yaw = cards[0]?.yaw();
   const verdict = cards[0]?.row?.["verdict"]?.replace("_", " ") ?? "";
@@ -414,7 +430,7 @@ function showCards() {
 /** Saves the last answer as a picture for a slide. */
 async function slide() {
   // Studies take long: theirs came with the answer.
-  const study = /** @type {Record<string, typeof design | typeof campaigns | typeof fit>} */ ({ design, campaigns, fit })[session.view];
+  const study = /** @type {Record<string, typeof design | typeof campaigns | typeof fit | typeof log>} */ ({ design, campaigns, fit, log })[session.view];
   if (study) {
     if (study.slide) save(`${session.view}.svg`, study.slide);
     else announce("this answer has no picture for a slide");
@@ -449,6 +465,8 @@ async function choices() {
   missions = [...documents.filter((row) => row["kind"] === "mission").map((row) => row["path"]), ...presets.filter((row) => row["kind"] === "mission").map((row) => row["name"])];
   const sets = presets.filter((row) => row["kind"] === "data-set").map((row) => row["name"]);
   offer("data", [...paths("measurements"), ...sets]);
+  offer("log", paths("measurements"));
+  session.log ||= paths("measurements")[0] ?? "";
   session.data ||= paths("measurements")[0] ?? sets[0] ?? "";
   for (const kind of ["rover", "soil", "wheel", "design", "campaign"]) {
     const select = byId(kind);
@@ -484,7 +502,7 @@ for (const name of PARTS) {
     session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => isOther(key)));
     if (name === "campaign") session.runs = 0;
     if (name === "dem") session.at = session.from = session.to = "";
-    if (["model", "belief", "dem", "data"].includes(name)) moved();
+    if (["model", "belief", "dem", "data", "log"].includes(name)) moved();
     else begin();
   });
 }
@@ -502,7 +520,7 @@ addEventListener("hashchange", () => {
   begin();
 });
 addEventListener("keydown", (event) => {
-  const isTyping = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
+  const isTyping = event.target instanceof HTMLInputElement && event.target.type !== "range" || event.target instanceof HTMLSelectElement;
   const button = { p: "pin", i: "slide" }[event.key];
   if (button && !isTyping && !event.ctrlKey && !event.metaKey && !event.altKey) byId(button)?.click();
 });

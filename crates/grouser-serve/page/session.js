@@ -32,6 +32,7 @@
  * @property {number} runs of it, 0 for those of its document
  * @property {string} out its folder
  * @property {string} data measured wheel tests
+ * @property {string} log of a drive
  * @property {string} fit keys of the soil, with commas between
  * @property {string} where conditions on rows, with semicolons between
  * @property {string} mission that is driven, empty for one heading
@@ -47,7 +48,7 @@ const USUAL = {
   yaw: 0, duration: 20, ground: "", dem: "", layer: "verdict", which: "fixed", at: "", from: "", to: "", least: "time", keepout: "",
   design: "design-lighter-wheels", trade: "",
   campaign: "campaign-wheel-test", runs: 0, out: "campaign",
-  mission: "", legs: "", seen: "plan", data: "", fit: "soil.shear.longitudinal_m", where: "",
+  mission: "", legs: "", seen: "plan", log: "", data: "", fit: "soil.shear.longitudinal_m", where: "",
   set: {},
 };
 

@@ -91,13 +91,18 @@ export class StudyAnswer {
     this.ended = ended;
     /** @type {string | undefined} the picture for a slide */
     this.slide = undefined;
-    this.first = none;
+    this.first = this.before = none;
     this.study = new Study(start, () => {
       started();
       this.start();
-    }, () => this.ended(undefined));
+    }, () => {
+      this.first = this.before;
+      this.hint.textContent = hint;
+      this.ended(undefined);
+    });
     this.asking = this.study.asking;
-    this.body = element("div", {}, [element("p", { class: "sentence" }, [hint])]);
+    this.hint = element("p", { class: "sentence" }, [hint]);
+    this.body = element("div", {}, [this.hint]);
     this.element = element("div", {}, [this.study.element, this.body]);
   }
 
@@ -131,10 +136,14 @@ export class StudyAnswer {
 
   start() {
     if (!this.session) return;
+    this.before = this.first;
+    this.first = "computing …";
+    if (this.hint.isConnected) this.hint.textContent = "The answer comes when it is computed to its end.";
     this.study.run(...this.question(this.session), (line) => {
       if (line.schema === "grouser.shown.v1") this.take(line);
     }, (error) => {
       if (error) {
+        this.first = this.before;
         this.failed();
         this.body.replaceChildren(element("p", { class: "error", id: "why-none" }, [error.message]));
       }
@@ -145,7 +154,7 @@ export class StudyAnswer {
   /** @param {Line} line */
   take(line) {
     this.slide = line.slide;
-    const [first = "", ...others] = line.sentences ?? [];
+    const [first = "", ...others] = (line.sentences ?? []).filter(Boolean);
     this.first = first;
     this.body.classList.remove("old");
     this.body.replaceChildren(

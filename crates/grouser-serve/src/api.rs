@@ -16,6 +16,7 @@ mod map;
 mod mission;
 mod parts;
 mod place;
+mod replay;
 mod route;
 mod rule;
 mod staged;
@@ -30,7 +31,7 @@ pub(crate) type List = fn(&Console) -> String;
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.
-pub(crate) static QUESTIONS: [(&str, Read); 18] = [
+pub(crate) static QUESTIONS: [(&str, Read); 19] = [
     ("heading", heading::read),
     ("heading-map", heading_map::read),
     ("wheel-test", wheel_test::read),
@@ -44,6 +45,7 @@ pub(crate) static QUESTIONS: [(&str, Read); 18] = [
     ("campaign-task", campaign::task),
     ("campaign-summary", campaign::summary),
     ("fit", fit::read),
+    ("replay", replay::read),
     ("mission", mission::read),
     ("mission-task", mission::task),
     ("wheel-drawing", drawing::read),

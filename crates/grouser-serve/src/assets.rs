@@ -24,7 +24,7 @@ pub(crate) const PAGE: Asset =
     Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
 
 /// Everything that it loads.
-pub(crate) static ASSETS: [Asset; 24] = [
+pub(crate) static ASSETS: [Asset; 25] = [
     asset!("page.css", "text/css; charset=utf-8"),
     asset!("main.js", SCRIPT),
     asset!("api.js", SCRIPT),
@@ -48,7 +48,11 @@ pub(crate) static ASSETS: [Asset; 24] = [
     asset!("design.js", SCRIPT),
     asset!("campaigns.js", SCRIPT),
     asset!("fit.js", SCRIPT),
+    asset!("log.js", SCRIPT),
     asset!("legs.js", SCRIPT),
 ];
+
+/// What a browser is told that has no token.
+pub(crate) const LOCKED: &str = include_str!("../page/locked.html");
 
 const SCRIPT: &str = "text/javascript; charset=utf-8";

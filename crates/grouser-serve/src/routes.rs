@@ -7,7 +7,7 @@ use grouser::document::json;
 use http_body_util::{BodyExt as _, LengthLimitError, Limited};
 use hyper::body::{Body as _, Incoming};
 use hyper::header::{
-    ALLOW, CACHE_CONTROL, CONNECTION, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName,
+    ACCEPT, ALLOW, CACHE_CONTROL, CONNECTION, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HeaderName,
     HeaderValue, REFERRER_POLICY, RETRY_AFTER, SET_COOKIE, X_CONTENT_TYPE_OPTIONS, X_FRAME_OPTIONS,
 };
 use hyper::{Method, Request, Response, StatusCode};
@@ -15,7 +15,7 @@ use hyper::{Method, Request, Response, StatusCode};
 use crate::answering;
 use crate::api::{self, List};
 use crate::asked::Read;
-use crate::assets::{ASSETS, Asset, PAGE};
+use crate::assets::{ASSETS, Asset, LOCKED, PAGE};
 use crate::body::ReplyBody;
 use crate::console::Console;
 use crate::refusal::Refusal;
@@ -37,8 +37,10 @@ pub(crate) async fn respond(
     console: &Arc<Console>,
     request: Request<Incoming>,
 ) -> Response<ReplyBody> {
+    let is_visit = is_visit(&request);
     let mut response = match answer(console, request).await {
         Ok(response) => response,
+        Err(refusal) if is_visit && refusal.status == StatusCode::UNAUTHORIZED => locked(),
         Err(refusal) => refused(&refusal),
     };
     for (name, value) in PROTECTION {
@@ -139,6 +141,19 @@ fn file(console: &Console, asset: &Asset) -> Response<ReplyBody> {
 fn whole(kind: HeaderValue, content: impl Into<Bytes>) -> Response<ReplyBody> {
     let mut response = Response::new(ReplyBody::whole(content));
     response.headers_mut().insert(CONTENT_TYPE, kind);
+    response
+}
+
+/// Whether somebody opens the page in a browser.
+fn is_visit(request: &Request<Incoming>) -> bool {
+    let accepted = request.headers().get(ACCEPT).and_then(|accepted| accepted.to_str().ok());
+    request.uri().path() == PAGE.path && accepted.is_some_and(|it| it.contains("text/html"))
+}
+
+/// What a browser without the token is told, in a page that loads nothing.
+fn locked() -> Response<ReplyBody> {
+    let mut response = whole(HeaderValue::from_static(PAGE.kind), LOCKED);
+    *response.status_mut() = StatusCode::UNAUTHORIZED;
     response
 }
 

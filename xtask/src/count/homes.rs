@@ -37,9 +37,10 @@ type Rule = fn(&Sources) -> usize;
 /// PyTorch, and designs that say what stands against them took 1,950 of Rust, 220 of Python, a name and a
 /// conversion. Designs, campaigns, fits and missions on the console took 980, its server's bounds and files
 /// that are opened from their folder 400, digests by other processors 100, and numbers that are tied or
-/// vary 150 of Rust and 40 of Python. Drives in three dimensions on the console took 40.
+/// vary 150 of Rust and 40 of Python. Drives in three dimensions on the console took 40, logs
+/// on it 150, and random commands that are timed and engines' steps that begin near their end 110.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 129_490, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 129_760, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 9_100, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 18, |all| {

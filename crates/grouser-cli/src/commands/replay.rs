@@ -55,13 +55,10 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
 
 /// Checks that a stretch could be predicted: without one nothing of the drive was compared.
 fn check_predicted(label: &str, replay: &Replay) -> Result<(), Failure> {
-    let all: u64 = replay.not_predicted.values().sum();
-    let most = replay.not_predicted.iter().max_by_key(|(_, count)| **count);
-    match most.filter(|_| all >= replay.stretches.len() as u64) {
+    match replay.nothing_predicted() {
         None => Ok(()),
-        Some((why, _)) => Err(Failure::Run(format!(
-            "{label}: no stretch could be predicted, and nothing is compared: {}",
-            why.meaning()
+        Some(why) => Err(Failure::Run(format!(
+            "{label}: no stretch could be predicted, and nothing is compared: {why}"
         ))),
     }
 }

@@ -36,6 +36,21 @@ impl Served {
 
     /// The lines that a question is answered by.
     fn ask(&self, question: &str, body: &Value) -> Vec<Value> {
+        let reply = self.reply(question, body);
+        let (head, body) = reply.split_once("\r\n\r\n").unwrap();
+        assert!(head.contains(" 200 "), "{reply}");
+        body.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+    }
+
+    /// Why a question is not answered.
+    fn refused(&self, question: &str, body: &Value) -> Value {
+        let reply = self.reply(question, body);
+        let (head, body) = reply.split_once("\r\n\r\n").unwrap();
+        assert!(head.contains(" 422 "), "{reply}");
+        serde_json::from_str(body).unwrap()
+    }
+
+    fn reply(&self, question: &str, body: &Value) -> String {
         let Self { port, token, .. } = self;
         let body = body.to_string();
         let mut stream = TcpStream::connect(("127.0.0.1", *port)).unwrap();
@@ -48,9 +63,7 @@ impl Served {
         stream.write_all(request.as_bytes()).unwrap();
         let mut reply = String::new();
         stream.read_to_string(&mut reply).unwrap();
-        let (head, body) = reply.split_once("\r\n\r\n").unwrap();
-        assert!(head.contains(" 200 "), "{reply}");
-        body.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+        reply
     }
 }
 
@@ -169,11 +182,44 @@ fn maps_ways_and_runs_are_those_of_their_commands() {
     }
 }
 
+/// The same of a log that lies in the folder; one outside of it, and what is no log, are refused.
+#[test]
+fn a_log_is_replayed_as_by_its_command() {
+    let place = Place::new();
+    let made = place.line("traverse --soil toyoura --slope-deg 8 --telemetry drive.csv");
+    assert!(made.status.success(), "{}", made.stderr);
+    place.write("other.csv", "load_n,slip_ratio\n5,0.2\n");
+    let served = Served::start(&place, &["."]);
+    for body in [
+        json!({"log": "drive.csv", "soil": "toyoura"}),
+        json!({
+            "log": "./drive.csv", "soil": "toyoura-uncertain", "samples": 8, "odometry": "visual",
+            "model": "small-wheel", "set": {"soil.cohesion_kpa": 0.25},
+        }),
+    ] {
+        check_is_of_its_command(&place, &served, "replay", &body);
+    }
+    for (body, key, says) in [
+        (json!({}), "log", "the path of a log"),
+        (json!({"log": "../drive.csv"}), "log", ""),
+        (json!({"log": "/etc/hostname"}), "log", ""),
+        (json!({"log": "other.csv"}), "log", "other.csv"),
+        (json!({"log": "drive.csv", "odometry": "guess"}), "odometry", "visual"),
+        (json!({"log": "drive.csv", "model": "all"}), "model", "one model"),
+        (json!({"log": "drive.csv", "slope_deg": 4}), "slope_deg", ""),
+    ] {
+        let refused = served.refused("replay", &body);
+        assert_eq!(refused["key"], key, "{body}: {refused}");
+        assert!(refused["error"].as_str().unwrap().contains(says), "{body}: {refused}");
+    }
+}
+
 /// Checks that each stage of an answer is what its command prints.
 fn check_is_of_its_command(place: &Place, served: &Served, question: &str, body: &Value) {
     let mut asked = body.clone();
     asked["shown"] = true.into();
-    let lines = served.ask(question, &asked);
+    let mut lines = served.ask(question, &asked);
+    lines.retain(|line| line["schema"] != "grouser.progress.v1");
     assert_eq!(lines.len() % 2, 0);
     for stage in lines.chunks(2) {
         // A map is a folder, which is written once.

@@ -17,7 +17,7 @@ pub(super) fn scenario(console: &Console, body: &[u8]) -> Result<Question, Refus
     let fields = AskedFields::of(body)?;
     let parts = ScenarioParts::of(&fields)?;
     fields.finish()?;
-    let scenario = parts.scenario(&console.folder)?;
+    let scenario = parts.scenario(&console.folder, false)?;
     Ok(Question::new(move |_, send| {
         let document = &scenario.document;
         let names = ["rover", "soil"].map(|part| (part.to_owned(), document.name_of(part).into()));

@@ -321,8 +321,16 @@ impl ScenarioParts {
     }
 
     /// The scenario as it is.
-    pub(super) fn scenario(&self, folder: &ServedFolder) -> Result<LoadedScenario, Refusal> {
-        self.read(folder, &self.settings, Use::AsItIs)
+    pub(super) fn scenario(
+        &self,
+        folder: &ServedFolder,
+        is_sampled: bool,
+    ) -> Result<LoadedScenario, Refusal> {
+        let scenario = self.read(folder, &self.settings, Use::AsItIs)?;
+        if is_sampled {
+            self.settings.refuse_sampled(folder, scenario.uncertain.as_ref())?;
+        }
+        Ok(scenario)
     }
 
     /// The scenario of a run.
@@ -385,6 +393,16 @@ impl ScenarioParts {
         if let Some(scenario) = &self.scenario {
             line.word(scenario);
         }
+        self.add_parts(line);
+    }
+
+    /// The words for a command that is about something else, and whose scenario is an option.
+    pub(super) fn add_options(&self, line: &mut CommandLine) {
+        line.maybe("scenario", self.scenario.as_deref());
+        self.add_parts(line);
+    }
+
+    fn add_parts(&self, line: &mut CommandLine) {
         line.maybe("rover", self.rover.as_deref());
         line.maybe("soil", self.soil.as_deref());
         self.settings.add_words(line);

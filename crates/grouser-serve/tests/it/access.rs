@@ -48,6 +48,12 @@ fn two_hosts_or_none_are_refused() {
 fn scripts_styles_and_data_ask_for_the_token_too() {
     let server = Served::usual();
     let own = format!("127.0.0.1:{}", server.port);
+    let visit =
+        format!("GET / HTTP/1.1\r\nHost: {own}\r\nAccept: text/html\r\nConnection: close\r\n\r\n");
+    let locked = server.send(&visit);
+    assert_eq!(locked.status, 401);
+    assert!(locked.body.contains("The token is missing") && !locked.body.contains(&server.token));
+    assert!(!locked.head.to_ascii_lowercase().contains("set-cookie"), "{}", locked.head);
     for path in ["/main.js", "/page.css", "/api/presets", "/api/documents", "/"] {
         let bare = format!("GET {path} HTTP/1.1\r\nHost: {own}\r\nConnection: close\r\n\r\n");
         assert_eq!(server.send(&bare).status, 401, "{path}");

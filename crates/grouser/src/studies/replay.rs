@@ -113,6 +113,17 @@ pub struct Replay {
     pub not_predicted: BTreeMap<NotPredicted, u64>,
 }
 
+impl Replay {
+    /// Why no stretch could be predicted, most often, where none could: nothing of the drive was
+    /// compared then.
+    #[must_use]
+    pub fn nothing_predicted(&self) -> Option<&'static str> {
+        let all: u64 = self.not_predicted.values().sum();
+        let (why, _) = self.not_predicted.iter().max_by_key(|(_, count)| **count)?;
+        (all >= self.stretches.len() as u64).then(|| why.meaning())
+    }
+}
+
 /// One stretch, measured and predicted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReplayedStretch {
