@@ -1,7 +1,7 @@
 // The sixth view: campaigns, many runs over what is uncertain, in folders of the folder.
 
 import { Asking, list } from "./api.js";
-import { element, picturesOf, tableOf } from "./dom.js";
+import { byId, element, picturesOf, tableOf } from "./dom.js";
 import { exportOf } from "./heading.js";
 import { setOf } from "./session.js";
 import { Study } from "./study.js";
@@ -32,6 +32,7 @@ export class CampaignAnswer {
     this.slide = undefined;
     this.study = new Study("Start the campaign", () => this.start(), () => {
       this.ended(undefined);
+      this.study.words.textContent += ": stopped; runs count once their shard is written";
       // What is computed is there.
       setTimeout(() => this.listed(), 500);
     });
@@ -77,7 +78,8 @@ export class CampaignAnswer {
 
   start() {
     const { session } = this;
-    if (session) this.run({ ...about(session), out: session.out });
+    const fields = ["campaign.runs", "out"].map(byId);
+    if (session && fields.every((field) => field?.reportValidity() ?? true)) this.run({ ...about(session), out: session.out });
   }
 
   /** @param {object} question */

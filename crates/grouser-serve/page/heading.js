@@ -12,7 +12,7 @@ import { setOf } from "./session.js";
 
 /** Samples of the answers: the soil as written, a draft, and the card's. */
 const STAGES = [0, 20, 200];
-/** The same of charts, and of other courses than the contour. */
+/** The same of other courses than the contour. */
 const FEW = [0, 40];
 /** Slopes of the chart [°]. */
 const SLOPES = Array.from({ length: 16 }, (_, place) => 2 * place);
@@ -103,7 +103,7 @@ export class Card {
       this.render();
     }, () => {});
     const slopes = [...new Set([...SLOPES, session.slope])].sort((one, other) => one - other);
-    const chart = { ...about(session), slope_deg: slopes, stages: stagesOf(session, FEW) };
+    const chart = { ...about(session), slope_deg: slopes, stages: stagesOf(session, STAGES) };
     this.askingChart.ask("heading", chart, (line) => {
       this.curve = line.rows ?? [];
       this.drawn();
@@ -144,7 +144,7 @@ export class Card {
     const uphill = has && yaw < 0 ? "downhill" : "uphill";
     const number = element("p", { class: "number" }, [
       has ? `${Math.abs(yaw).toFixed(1)}°` : "none",
-      element("small", {}, [has ? ` nose ${uphill}` : " no heading holds it"]),
+      element("small", {}, [has ? ` nose ${uphill}${row.draws ? `, the median of ${row.draws} samples` : ""}` : " no heading holds it"]),
     ]);
     const verdict = VERDICTS[row.verdict];
     const badge = verdict
@@ -168,7 +168,7 @@ export class Card {
     ]));
     const head = ["", "as written", "2.5 %", "97.5 %"].map((text) => text ? element("th", { scope: "col" }, [text]) : element("td"));
     const count = row.draws ? `${row.draws} samples` : "the soil as written";
-    const changed = Object.entries(session.set).map(([key, value]) => `${key} = ${value}`);
+    const changed = Object.entries(about(session).set).map(([key, value]) => `${key} = ${value}`);
     this.body.replaceChildren(
       number, ...(badge ? [badge] : []), element("p", { class: "sentence" }, [this.sentence()]),
       element("table", {}, [

@@ -37,8 +37,8 @@ function fields(leg, name, changed) {
     if (value !== null && typeof value === "object") return fields(value, `${name} ${key}`, changed);
     if (typeof value !== "number") return [element("span", {}, [`${key} ${value}`])];
     return [element("label", {}, [`${key} `, element("input", {
-      type: "number", step: "any", value, "aria-label": `${name} ${key}`, onchange: (/** @type {any} */ event) => {
-        if (!Number.isFinite(event.target.valueAsNumber)) return;
+      type: "number", step: "any", required: true, value, "aria-label": `${name} ${key}`, onchange: (/** @type {any} */ event) => {
+        if (!event.target.reportValidity()) return;
         leg[key] = event.target.valueAsNumber;
         changed();
       },

@@ -39,9 +39,11 @@ export class Slider {
     // A step that does not meet the number would move it.
     range.value = String(value);
     field.value = String(Number(value.toPrecision(6)));
+    let last = value;
     /** @param {number} number */
     const move = (number) => {
       if (!Number.isFinite(number)) return;
+      last = number;
       moved(number);
     };
     range.addEventListener("input", () => {
@@ -49,8 +51,18 @@ export class Slider {
       move(Number(range.value));
     });
     field.addEventListener("input", () => {
+      // What is no number is empty to whoever asks.
+      if (field.value === "") {
+        this.complain(`it must be a number; the answer is still of ${last}`);
+        return;
+      }
       range.value = field.value;
-      if (field.value !== "") move(Number(field.value));
+      move(Number(field.value));
+    });
+    field.addEventListener("change", () => {
+      if (field.value !== "") return;
+      field.value = String(last);
+      this.complain("");
     });
     const back = usual === undefined ? null : element("button", {
       type: "button", class: "back", title: `Back to ${usual}, as the document has it`,

@@ -207,8 +207,8 @@ fn out(fields: &AskedFields) -> Result<String, Refusal> {
     let out = fields.text(OUT)?.unwrap_or_default();
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
     if out.is_empty() || out.len() > 80 || out.starts_with('.') || !out.chars().all(is_plain) {
-        let message = "it must be a name of letters, digits, `-`, `_` and `.`, which stands first \
-                       in none: the campaign's folder in the folder that is served";
+        let message = "it must be the name of a folder: letters, digits, `-`, `_` and `.`, and no \
+                       `.` at its beginning";
         return Err(Refusal::of_key(OUT, message));
     }
     Ok(out)

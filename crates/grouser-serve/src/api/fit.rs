@@ -187,7 +187,9 @@ impl FitAsked {
             Value::Object(record) => record.keys().cloned().collect(),
             _ => Vec::new(),
         };
-        let sentences = [vec![says], solved.unidentifiable.clone(), found.notes()].concat();
+        let sentences =
+            [vec![says], solved.unidentifiable.clone(), self.measured.notes.clone(), found.notes()]
+                .concat();
         send(json::line(&json!({
             "schema": "grouser.shown.v1",
             "command": self.line.text(),
