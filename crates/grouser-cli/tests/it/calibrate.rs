@@ -81,6 +81,25 @@ fn a_data_set_of_the_program_is_fitted_by_its_name() {
     assert_eq!(inputs["data_fingerprint"], of_path["data_fingerprint"]);
 }
 
+/// Rows of another wheel: the discrepancy that the samples allow for leaves the least squares
+/// outside of their interval, and it is said.
+#[test]
+fn samples_that_contradict_the_least_squares_are_named() {
+    let place = Place::new();
+    let asked = "calibrate --data cmu-single-wheel --soil toyoura --fit soil.shear.longitudinal_m \
+                 --where wheel=grouser --steps 100 --wheel";
+    let wrong = place.line(&format!("{asked} hakuto"));
+    let said =
+        "soil.shear.longitudinal_m: least squares, 0.06147, lie outside of 95 % of the samples";
+    assert!(wrong.stderr.contains(said), "{}", wrong.stderr);
+    let truth = place.line(
+        "calibrate --data cmu-single-wheel --soil cmu-direct90-grouser --wheel \
+                            cmu-grouser --fit soil.shear.longitudinal_m --where slip_angle_deg=0 \
+                            --steps 100",
+    );
+    assert!(truth.status.success() && !truth.stderr.contains("lie outside"), "{}", truth.stderr);
+}
+
 #[test]
 fn the_folder_holds_a_soil_that_other_commands_take() {
     let place = with_test();

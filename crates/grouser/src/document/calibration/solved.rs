@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use super::super::columns::{SLIP_ANGLE, TOTAL_SLIP};
+use super::super::reading::four_digits;
 use super::{ParameterRecord, channel_name, channel_unit, unidentifiable};
 use crate::studies::calibration::solution::GOOD_R_HAT;
 use crate::studies::calibration::{
@@ -149,10 +150,31 @@ impl Solved {
     }
 
     /// What to know of the solution, a sentence each: keys that end at a bound, a sampler that has
-    /// not converged.
+    /// not converged, least squares that the samples contradict.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        self.bound_notes().into_iter().chain(self.convergence_note()).collect()
+        let of_values = self.bound_notes().into_iter().chain(self.convergence_note());
+        of_values.chain(self.contradiction_notes()).collect()
+    }
+
+    /// Notes on keys whose least squares lie outside of nearly all samples.
+    fn contradiction_notes(&self) -> Vec<String> {
+        let note = |record: &ParameterRecord| {
+            let ParameterRecord { key, fit, p2_5: Some(low), p97_5: Some(high), .. } = record
+            else {
+                return None;
+            };
+            let [fit_text, low_text, high_text] = [*fit, *low, *high].map(four_digits);
+            (!(*low..=*high).contains(fit)).then(|| {
+                format!(
+                    "{key}: least squares, {fit_text}, lie outside of 95 % of the samples, \
+                     {low_text} to {high_text}: the model misses these tests by more than their \
+                     scatter, and how that is counted decides; look whether soil and wheel are \
+                     those of the tests"
+                )
+            })
+        };
+        self.records.iter().filter_map(note).collect()
     }
 
     /// Notes on keys whose fit ends at a bound, where their standard deviation is not known.
