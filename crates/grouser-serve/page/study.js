@@ -38,14 +38,15 @@ export class Study {
    */
   run(name, question, take, end) {
     this.show(true);
+    this.what = this.all = undefined;
     this.words.textContent = "waiting for its turn …";
     this.asking.ask(name, question, (line) => {
       if (line.schema === "grouser.progress.v1") this.progress(line);
       else take(line);
     }, (error) => {
       this.show(false);
-      if (error) this.words.textContent = "";
-      else if (this.all) this.words.textContent = `${this.all} of ${this.all} ${this.what}`;
+      // What is quick counts nothing on its way.
+      this.words.textContent = !error && this.all ? `${this.all} of ${this.all} ${this.what}` : "";
       end(error);
     });
   }
