@@ -21,7 +21,7 @@ pub(crate) struct SystemTool {
 }
 
 /// All of them.
-const ALL: [SystemTool; 4] = [VALGRIND, RENDERER, CHROMIUM, NPM];
+const ALL: [SystemTool; 5] = [VALGRIND, RENDERER, CHROMIUM, NPM, CLANG];
 
 /// What counts instructions.
 pub(crate) const VALGRIND: SystemTool = SystemTool {
@@ -59,6 +59,14 @@ pub(crate) const NPM: SystemTool = SystemTool {
     packages: &["npm"],
     checks: "the types of the console's scripts",
     found: || runs("npm", &["--version"]),
+};
+
+/// The second compiler of C and C++, whose warnings are others.
+const CLANG: SystemTool = SystemTool {
+    name: "clang",
+    packages: &["clang"],
+    checks: "the programs in C and C++ by it",
+    found: || runs("clang", &["--version"]) && runs("clang++", &["--version"]),
 };
 
 /// What compiles for other processors, and runs that.
