@@ -327,7 +327,9 @@ function beginMission() {
       shown();
       changed();
     };
-    place.replaceChildren(element("h2", {}, ["Move"]), whatIsDriven(), table, ...limits.map(ofKey), group("Other numbers", others.map(ofKey), false));
+    const { rover, soil } = line.names ?? {};
+    const parts = element("p", { class: "setup" }, [`${rover} on ${soil}, as the mission has them`]);
+    place.replaceChildren(element("h2", {}, ["Move"]), whatIsDriven(), parts, table, ...limits.map(ofKey), group("Other numbers", others.map(ofKey), false));
     answer.replaceChildren(own.element);
     moved();
   }, (error) => {

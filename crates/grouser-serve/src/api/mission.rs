@@ -58,7 +58,11 @@ pub(super) fn task(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
         let document = &mission.document;
         send(json::line(&json!({
             "schema": "grouser.session.v1",
-            "names": { "mission": document.name() },
+            "names": {
+                "mission": document.name(),
+                "rover": document.name_of("rover"),
+                "soil": document.name_of("soil"),
+            },
             "assumptions": mission.assumptions,
             "documents": { "mission.toml": mission.to_toml() },
             "keys": super::document::study_keys(Kind::Mission, document),
