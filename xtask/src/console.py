@@ -633,7 +633,9 @@ def use(looks, browser, server):
     said = page.locator(".slider .error:not(:empty)").all_inner_texts()
     looks.claim("what is no number is said", [] if said and "it must be a number" in said[0] else [f"there is {said}"])
     friction.blur()
-    looks.claim("and gives way to the last one", [] if friction.input_value() == "99" else [friction.input_value()])
+    said = page.locator(".slider .error:not(:empty)").all_inner_texts()
+    is_back = friction.input_value() == "99" and said and "it must be 5 to 60" in said[0]
+    looks.claim("and gives way to the last one, and to what is wrong with it", [] if is_back else [friction.input_value(), *said])
     friction.fill("38")
     settled(page)
     looks.claim("an error goes with its cause", page.locator(".slider .error:not(:empty)").all_inner_texts())

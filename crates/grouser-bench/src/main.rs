@@ -177,11 +177,11 @@ fn row(unit: Unit, seconds: f64, accuracy: &Accuracy) -> Row {
         }
         Unit::RandomStep => {
             let error = of_way("random_step_error_mm", accuracy.random_step);
-            ("the same within 30 % at random, dynamic", 1e6, "µs", error)
+            ("step of 20 ms at random speeds, dynamic", 1e6, "µs", error)
         }
         Unit::StopAndGoStep => {
             let error = of_way("stop_and_go_step_error_mm", accuracy.stop_and_go_step);
-            ("the same with rests and reversals, dynamic", 1e6, "µs", error)
+            ("step of 20 ms with rests, dynamic", 1e6, "µs", error)
         }
         Unit::HeadingCurve => {
             let error = accuracy.heading_curve;

@@ -47,9 +47,9 @@ pub enum Unit {
     ControlStep,
     /// The same as a sequence of steady states.
     ControlStepQuasiSteady,
-    /// The same under random speeds, all accelerations integrated: within 30 % of usual ones.
+    /// Steps under random speeds, within 30 % of the usual one, all accelerations integrated.
     RandomStep,
-    /// The same under any speeds, rests and reversals among them.
+    /// Steps under any speeds, rests and reversals among them, all accelerations integrated.
     StopAndGoStep,
     /// The heading offset on 25 slopes up to the steepest.
     HeadingCurve,

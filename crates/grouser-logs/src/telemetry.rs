@@ -201,6 +201,9 @@ impl TelemetryLog {
         given
     }
 
+    /// Less of a log than this is too little to rely on without a word [-]. Source: ours.
+    pub const LEAST_USED: f64 = 0.5;
+
     /// The share of its rows, or readings, that was used so far [-].
     #[must_use]
     pub fn share_used(&self) -> f64 {

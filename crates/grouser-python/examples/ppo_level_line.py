@@ -146,7 +146,7 @@ def updated(parameters: Parameters, moments: Any, drives: Drives, parts: Any, si
     rows = jax.tree.map(lambda it: it.reshape(-1, *it.shape[2:]), data)
 
     def step(learned: Any, part: Any) -> tuple[Any, None]:
-        """One step of Adam, [KingmaBa2015], Algorithm 1, with the numbers proposed there."""
+        """One step of Adam, [KingmaBa2015], section 2, in its faster form, with the decay rates proposed there."""
         parameters, (mean, square, before) = learned
         count = before + 1
         gradient = jax.grad(loss)(parameters, *jax.tree.map(lambda it: it[part], rows))

@@ -32,7 +32,7 @@ export class CampaignAnswer {
     this.slide = undefined;
     this.study = new Study("Start the campaign", () => this.start(), () => {
       this.ended(undefined);
-      this.study.words.textContent += ": stopped; runs count once their shard is written";
+      this.study.words.textContent += "; runs of a part that was not finished are computed again";
       // What is computed is there.
       setTimeout(() => this.listed(), 500);
     });

@@ -21,6 +21,11 @@ export class FitAnswer extends StudyAnswer {
     }, ended, started);
   }
 
+  /** @override */
+  failed() {
+    this.first = "no fit";
+  }
+
   /**
    * @override
    * @param {Session} session

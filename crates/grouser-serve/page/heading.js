@@ -12,7 +12,7 @@ import { setOf } from "./session.js";
 
 /** Samples of the answers: the soil as written, a draft, and the card's. */
 const STAGES = [0, 20, 200];
-/** The same of other courses than the contour. */
+/** Samples of the answers on other courses. */
 const FEW = [0, 40];
 /** Slopes of the chart [°]. */
 const SLOPES = Array.from({ length: 16 }, (_, place) => 2 * place);

@@ -1,7 +1,6 @@
 // The eighth view: a log of a drive beside what is predicted for it.
 
 import { about as aboutScenario } from "./heading.js";
-import { setOf } from "./session.js";
 import { StudyAnswer } from "./study.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -18,7 +17,7 @@ export class LogAnswer extends StudyAnswer {
   constructor(ended, started) {
     super({
       start: "Replay the log",
-      hint: "A log of the folder is replayed when you ask for it: what its instruments said beside what is predicted at the wheel speeds and the attitude that they read, and what the differences point to.",
+      hint: "A log of the folder is replayed when you ask for it: what its instruments read beside what is predicted at the wheel speeds and the attitude that they read, and what the differences point to.",
       none: "no log is replayed yet",
     }, ended, started);
   }
@@ -30,7 +29,7 @@ export class LogAnswer extends StudyAnswer {
    */
   question(session) {
     const samples = session.belief === "nominal" ? {} : { samples: SAMPLES };
-    return ["replay", { ...aboutScenario(session), set: setOf(session, ["soil", "rover"]), log: session.log, ...samples, shown: true, figures: true, slide: true }];
+    return ["replay", { ...aboutScenario(session), log: session.log, ...samples, shown: true, figures: true, slide: true }];
   }
 
   /** @override */

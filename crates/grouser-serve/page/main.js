@@ -213,11 +213,11 @@ function begin() {
     } else if (isLog) {
       log = new LogAnswer(ended, begun);
       place.replaceChildren(
-        element("h2", {}, ["Move"]), group(`Soil: ${names["soil"]}`, of("soil"), true), group(`Rover: ${names["rover"]}`, of("rover"), false),
+        element("h2", {}, ["Move"]), ...ofGravity(keys),
+        group(`Soil: ${names["soil"]}`, of("soil"), true), group(`Rover: ${names["rover"]}`, of("rover"), false),
       );
       answer.replaceChildren(log.element);
     } else {
-      const gravity = keys.filter((key) => key.key === GRAVITY);
       const slope = isMap ? courses() : isDrive ? run() : [
         ofSession("slope", "slope_deg", "Slope", "°", [0, 40]),
         ofSession("course", "course_deg", "Course, from the contour, uphill", "°", [-90, 90]),
@@ -225,7 +225,7 @@ function begin() {
       place.replaceChildren(
         element("h2", {}, ["Move"]), ...slope,
         ofSession("speed", "rim_speed_m_s", isDrive ? "Speed of the rims" : "Speed of the rims, for the power", "m/s", [0.005, 0.5]),
-        ...gravity.map((key) => ofKey({ ...key, minimum: 0.5, maximum: 25 })),
+        ...ofGravity(keys),
         group(`Soil: ${names["soil"]}`, of("soil"), true), group(`Rover: ${names["rover"]}`, of("rover"), false),
       );
       if (isDrive) {
@@ -240,6 +240,11 @@ function begin() {
   }, (error) => {
     if (error) complain(error);
   });
+}
+
+/** @param {import("./api.js").Key[]} keys */
+function ofGravity(keys) {
+  return keys.filter((key) => key.key === GRAVITY).map((key) => ofKey({ ...key, minimum: 0.5, maximum: 25 }));
 }
 
 /** The course of a map: one, by a dial, or the best or the worst of each place. */

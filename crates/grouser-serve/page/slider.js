@@ -40,6 +40,8 @@ export class Slider {
     range.value = String(value);
     field.value = String(Number(value.toPrecision(6)));
     let last = value;
+    /** @type {string | undefined} what stood there before a field was empty */
+    let before;
     /** @param {number} number */
     const move = (number) => {
       if (!Number.isFinite(number)) return;
@@ -51,18 +53,21 @@ export class Slider {
       move(Number(range.value));
     });
     field.addEventListener("input", () => {
-      // What is no number is empty to whoever asks.
+      // A field with a text that is no number has an empty value.
       if (field.value === "") {
-        this.complain(`it must be a number; the answer is still of ${last}`);
+        before ??= this.error.textContent ?? "";
+        this.complain(`it must be a number; the last one was ${last}`);
         return;
       }
+      before = undefined;
       range.value = field.value;
       move(Number(field.value));
     });
     field.addEventListener("change", () => {
       if (field.value !== "") return;
       field.value = String(last);
-      this.complain("");
+      this.complain(before ?? "");
+      before = undefined;
     });
     const back = usual === undefined ? null : element("button", {
       type: "button", class: "back", title: `Back to ${usual}, as the document has it`,

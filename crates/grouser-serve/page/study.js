@@ -19,6 +19,7 @@ export class Study {
     this.button = element("button", { type: "button", id: "start", onclick: start }, [what]);
     this.halt = element("button", { type: "button", id: "stop", disabled: true, onclick: () => {
       this.stop();
+      this.words.textContent = this.what ? `${this.words.textContent}: stopped` : "stopped";
       stopped();
     } }, ["Stop"]);
     this.bar = element("progress", { id: "progress", "aria-label": "Progress", hidden: true });
@@ -145,6 +146,8 @@ export class StudyAnswer {
     }, (error) => {
       if (error) {
         this.first = this.before;
+        this.slide = undefined;
+        this.body.classList.remove("old");
         this.failed();
         this.body.replaceChildren(element("p", { class: "error", id: "why-none" }, [error.message]));
       }

@@ -52,7 +52,7 @@ pub(crate) static ASSETS: [Asset; 25] = [
     asset!("legs.js", SCRIPT),
 ];
 
-/// What a browser is told that has no token.
+/// The page for a browser without the token.
 pub(crate) const LOCKED: &str = include_str!("../page/locked.html");
 
 const SCRIPT: &str = "text/javascript; charset=utf-8";

@@ -150,7 +150,7 @@ fn is_visit(request: &Request<Incoming>) -> bool {
     request.uri().path() == PAGE.path && accepted.is_some_and(|it| it.contains("text/html"))
 }
 
-/// What a browser without the token is told, in a page that loads nothing.
+/// The page that a browser without the token gets, which loads nothing.
 fn locked() -> Response<ReplyBody> {
     let mut response = whole(HeaderValue::from_static(PAGE.kind), LOCKED);
     *response.status_mut() = StatusCode::UNAUTHORIZED;

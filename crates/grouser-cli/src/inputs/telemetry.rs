@@ -96,14 +96,11 @@ fn check_several(paths: &[PathBuf], is_followed: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Less of a log than this is too little to rely on without a word [-]. Source: ours.
-const LEAST_USED: f64 = 0.5;
-
 /// Checks that enough of a log could be used; all else is done then.
 ///
 /// * `share`: of its rows or readings [-]
 pub(crate) fn check_share_used(label: &str, share: f64, args: &LogArgs) -> Result<(), Failure> {
-    if share >= LEAST_USED || args.accept_loss {
+    if share >= TelemetryLog::LEAST_USED || args.accept_loss {
         return Ok(());
     }
     let percent = (100.0 * share).floor();

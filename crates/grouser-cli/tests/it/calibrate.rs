@@ -82,7 +82,7 @@ fn a_data_set_of_the_program_is_fitted_by_its_name() {
 }
 
 /// Rows of another wheel: the discrepancy that the samples allow for leaves the least squares
-/// outside of their interval, and it is said.
+/// outside of their interval, and a note says so.
 #[test]
 fn samples_that_contradict_the_least_squares_are_named() {
     let place = Place::new();
@@ -90,14 +90,14 @@ fn samples_that_contradict_the_least_squares_are_named() {
                  --where wheel=grouser --steps 100 --wheel";
     let wrong = place.line(&format!("{asked} hakuto"));
     let said =
-        "soil.shear.longitudinal_m: least squares, 0.06147, lie outside of 95 % of the samples";
+        "soil.shear.longitudinal_m: the least-squares value, 0.06147, is outside the interval";
     assert!(wrong.stderr.contains(said), "{}", wrong.stderr);
     let truth = place.line(
         "calibrate --data cmu-single-wheel --soil cmu-direct90-grouser --wheel \
                             cmu-grouser --fit soil.shear.longitudinal_m --where slip_angle_deg=0 \
                             --steps 100",
     );
-    assert!(truth.status.success() && !truth.stderr.contains("lie outside"), "{}", truth.stderr);
+    assert!(truth.status.success() && !truth.stderr.contains("is outside"), "{}", truth.stderr);
 }
 
 #[test]

@@ -129,6 +129,9 @@ pub struct Stepped {
     pub rounds: u32,
 }
 
+/// Velocities agree to this share of the rest speed [-]: forces then do to 1e-6.
+const AGREED: f64 = 1e-6;
+
 /// Derivatives of the residual, ready to solve with.
 type Factors = LU<f64, Dyn, Dyn>;
 
@@ -148,8 +151,9 @@ impl TimeStep<'_> {
         self.reaction_near(wheels, self.free)
     }
 
-    /// The same reaction, sought from a motion near the one at the end of the step, which saves
-    /// most of the search: such as the one that the forces of the step before lead to.
+    /// The [`reaction`](Self::reaction), sought from a motion near the one at the end of the step,
+    /// which saves most of the search: such as the one that the forces of the step before lead to.
+    /// Where that search does not end, one from the motion without the soil follows.
     ///
     /// Newton's method, with the model's derivatives by differences, kept while they lead on, and
     /// steps that are halved until they lead nearer. Where none does, the nearest is taken, and
@@ -158,8 +162,17 @@ impl TimeStep<'_> {
     /// * `motion`: of the wheels [m/s], as long as [`free`](Self::free)
     #[must_use]
     pub fn reaction_near(&self, wheels: &[SteppingWheel<'_>], motion: &DVector<f64>) -> Stepped {
-        /// Velocities agree to this share of the rest speed [-]: forces then do to 1e-6.
-        const AGREED: f64 = 1e-6;
+        let near = self.sought(wheels, motion);
+        if near.residual <= AGREED * self.rest_speed || motion == self.free {
+            return near;
+        }
+        let anew = self.sought(wheels, self.free);
+        let rounds = near.rounds + anew.rounds;
+        let nearer = if anew.residual < near.residual { anew } else { near };
+        Stepped { rounds, ..nearer }
+    }
+
+    fn sought(&self, wheels: &[SteppingWheel<'_>], motion: &DVector<f64>) -> Stepped {
         const MOST_ROUNDS: u32 = 40;
         let mut best = self.attempt(wheels, motion.clone());
         let mut derivatives = None;

@@ -2,12 +2,12 @@
 
 use std::cell::RefCell;
 use std::io::Cursor;
+use std::path::PathBuf;
 
-use bytes::Bytes;
 use grouser::answers::replay::ReplayQuestion;
 use grouser::answers::{Answer, AnswerError, AnswerOptions, Sampling};
 use grouser::document::given_file::GivenFile;
-use grouser::document::measurements::telemetry::{Odometry, TelemetryRecord};
+use grouser::document::measurements::telemetry::Odometry;
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::replay::Replayer;
 use grouser_draw::title_of;
@@ -21,12 +21,13 @@ use super::staged::{Staged, Stages, refused};
 use super::wheel_test::add_uncertainty;
 use crate::asked::Question;
 use crate::console::Console;
+use crate::folder::ServedFolder;
 use crate::refusal::Refusal;
 
-/// Bytes of a log at the most: it is kept whole.
+/// Bytes of a log at the most: while it is read it is kept whole.
 const MOST_BYTES: u64 = 64 << 20;
 /// Rows of a log between two looks at whether somebody still waits.
-const ROWS_UNWATCHED: usize = 1000;
+const ROWS_UNWATCHED: u64 = 1000;
 
 /// What the console calls what one may ask for.
 const OPTIONS: OptionNames = OptionNames {
@@ -40,7 +41,8 @@ const OPTIONS: OptionNames = OptionNames {
 /// What is asked of a log.
 struct ReplayAsked {
     question: ReplayQuestion,
-    bytes: Bytes,
+    folder: ServedFolder,
+    path: PathBuf,
     odometry: Option<Odometry>,
     /// The log, once it is read: all stages share it.
     read: RefCell<Option<ReadLog>>,
@@ -48,7 +50,7 @@ struct ReplayAsked {
 
 /// A log, read to its end.
 struct ReadLog {
-    records: Vec<TelemetryRecord>,
+    replayer: Replayer,
     given: Vec<GivenFile>,
     notes: Vec<String>,
 }
@@ -69,14 +71,14 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     }
     let scenario = parts.scenario(&console.folder, stages.has_samples())?;
     let path = console.folder.find_map(&name);
-    let bytes = path.and_then(|path| console.folder.read(&path, MOST_BYTES));
-    let bytes = bytes.map_err(|problem| Refusal::of_key("log", problem.to_string()))?.into();
+    let path = path.map_err(|problem| Refusal::of_key("log", problem.to_string()))?;
     let mut line = CommandLine::new("replay");
     line.word(&name);
     parts.add_options(&mut line);
     line.maybe("odometry", kind.as_deref());
     let question = ReplayQuestion { log: name, scenario, has_slope: false, sampling: None };
-    let asked = ReplayAsked { question, bytes, odometry, read: RefCell::default() };
+    let folder = console.folder.clone();
+    let asked = ReplayAsked { question, folder, path, odometry, read: RefCell::default() };
     Ok(stages.question(asked, line))
 }
 
@@ -90,18 +92,26 @@ fn odometry(kind: &str) -> Result<Odometry, Refusal> {
 impl ReplayAsked {
     fn log(&self, go_on: &(dyn Fn() -> bool + Sync)) -> Result<ReadLog, Refusal> {
         let ReplayQuestion { log: label, scenario, .. } = &self.question;
-        let source = Box::new(Cursor::new(self.bytes.clone()));
+        let bytes = self.folder.read(&self.path, MOST_BYTES);
+        let bytes = bytes.map_err(|problem| Refusal::of_key("log", problem.to_string()))?;
+        let source = Box::new(Cursor::new(bytes));
         let options = LogOptions::default().with_odometry(self.odometry);
         let log = TelemetryLog::of_table(label, source, &scenario.value.rover, &options);
         let mut log = log.map_err(unread)?;
-        let mut records = Vec::new();
+        let mut replayer = Replayer::new(&scenario.value, None);
         while let Some(record) = log.next_record().map_err(unread)? {
-            records.push(record);
-            if records.len() % ROWS_UNWATCHED == 0 && !go_on() {
+            replayer.update(record);
+            if log.rows() % ROWS_UNWATCHED == 0 && !go_on() {
                 return Err(refused(AnswerError::Stopped));
             }
         }
-        Ok(ReadLog { records, given: log.given(), notes: log.notes() })
+        let mut notes = log.notes();
+        let share = log.share_used();
+        if share < TelemetryLog::LEAST_USED {
+            let percent = (100.0 * share).floor();
+            notes.insert(0, format!("only {percent} % of the log could be used"));
+        }
+        Ok(ReadLog { replayer, given: log.given(), notes })
     }
 }
 
@@ -123,9 +133,7 @@ impl Staged for ReplayAsked {
             None => Ok(Vec::new()),
         };
         let samples = samples.map_err(|error| refused(error.into()))?;
-        let mut replayer = Replayer::new(&scenario.value, None);
-        log.records.iter().for_each(|record| replayer.update(record.clone()));
-        let replay = replayer.finish(&samples, options.go_on);
+        let replay = log.replayer.clone().finish(&samples, options.go_on);
         let replay = replay.map_err(|error| Refusal::of_key("log", error.to_string()))?;
         let replay = replay.ok_or_else(|| refused(AnswerError::Stopped))?;
         if let Some(why) = replay.nothing_predicted() {

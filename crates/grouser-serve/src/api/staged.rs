@@ -119,7 +119,7 @@ impl Stages {
         Ok(Self { samplings: stages, shown, is_strict: fields.truth("strict")?, rows: 1 })
     }
 
-    /// The same of runs, which come along in three dimensions where that is asked for.
+    /// These stages of a run, which comes along in three dimensions where that is asked for.
     pub(super) fn with_scene(mut self, fields: &AskedFields) -> Result<Self, Refusal> {
         if fields.truth("scene")? {
             self.shown.get_or_insert_default().has_scene = true;

@@ -29,6 +29,16 @@ fn reaction(
     sinkage: f64,
     free: [f64; MOTIONS],
 ) -> Stepped {
+    reaction_near(inverse_mass, duration, sinkage, free, free)
+}
+
+fn reaction_near(
+    inverse_mass: &DMatrix<f64>,
+    duration: f64,
+    sinkage: f64,
+    free: [f64; MOTIONS],
+    near: [f64; MOTIONS],
+) -> Stepped {
     let step = TimeStep {
         duration,
         gravity: EARTH_GRAVITY,
@@ -38,7 +48,8 @@ fn reaction(
         free: &DVector::from_row_slice(&free),
     };
     let (wheel, soil, model) = (hakuto_wheel(), toyoura(), Model::Ishigami.as_ref());
-    step.reaction(&[SteppingWheel { model, wheel, soil, sinkage }])
+    let near = DVector::from_row_slice(&near);
+    step.reaction_near(&[SteppingWheel { model, wheel, soil, sinkage }], &near)
 }
 
 #[test]
@@ -94,5 +105,27 @@ proptest! {
         let free = [free[0], free[1], free[2], free[3]];
         let stepped = reaction(&inverse_mass, 10.0_f64.powf(log_duration), sinkage, free);
         prop_assert!(stepped.residual <= 1e-6 * REST_SPEED, "{stepped:?}");
+    }
+
+    /// The same reaction wherever it is sought from.
+    #[test]
+    fn the_reaction_does_not_depend_on_where_it_is_sought_from(
+        free in prop::array::uniform4(-0.3..0.3_f64),
+        apart in prop::array::uniform4(-0.05..0.05_f64),
+        sinkage in 0.002..0.04_f64,
+        log_duration in -4.0..-2.0_f64,
+    ) {
+        let (mass, duration) = (lone_wheel(), 10.0_f64.powf(log_duration));
+        let near = std::array::from_fn(|k| free[k] + apart[k]);
+        let alone = reaction(&mass, duration, sinkage, free).wheels[0].forces;
+        let sought = reaction_near(&mass, duration, sinkage, free, near).wheels[0].forces;
+        let size = 1e-4 * (1.0 + alone.normal_force.abs() + alone.drawbar_pull.abs());
+        for (one, other) in [
+            (alone.drawbar_pull, sought.drawbar_pull),
+            (alone.side_force, sought.side_force),
+            (alone.normal_force, sought.normal_force),
+        ] {
+            prop_assert!((one - other).abs() < size, "{alone:?} {sought:?}");
+        }
     }
 }

@@ -150,27 +150,34 @@ impl Solved {
     }
 
     /// What to know of the solution, a sentence each: keys that end at a bound, a sampler that has
-    /// not converged, least squares that the samples contradict.
+    /// not converged, a value of least squares that the samples contradict.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let of_values = self.bound_notes().into_iter().chain(self.convergence_note());
         of_values.chain(self.contradiction_notes()).collect()
     }
 
-    /// Notes on keys whose least squares lie outside of nearly all samples.
+    /// Notes on keys whose least-squares value is outside the interval of the samples.
     fn contradiction_notes(&self) -> Vec<String> {
         let note = |record: &ParameterRecord| {
-            let ParameterRecord { key, fit, p2_5: Some(low), p97_5: Some(high), .. } = record
+            // Samples lie within the bounds, and so around no fit that ends at one.
+            let ParameterRecord {
+                key,
+                fit,
+                fit_std: Some(_),
+                p2_5: Some(low),
+                p97_5: Some(high),
+                ..
+            } = record
             else {
                 return None;
             };
             let [fit_text, low_text, high_text] = [*fit, *low, *high].map(four_digits);
             (!(*low..=*high).contains(fit)).then(|| {
                 format!(
-                    "{key}: least squares, {fit_text}, lie outside of 95 % of the samples, \
-                     {low_text} to {high_text}: the model misses these tests by more than their \
-                     scatter, and how that is counted decides; look whether soil and wheel are \
-                     those of the tests"
+                    "{key}: the least-squares value, {fit_text}, is outside the interval of 95 % of \
+                     the samples, {low_text} to {high_text}: the model misses these tests by more \
+                     than their scatter; check that soil and wheel are those of the tests"
                 )
             })
         };
