@@ -201,8 +201,17 @@ impl TelemetryLog {
         given
     }
 
-    /// Less of a log than this is too little to rely on without a word [-]. Source: ours.
-    pub const LEAST_USED: f64 = 0.5;
+    /// What to say of a log, or of a folder of them, of which too little was used to rely on it
+    /// without a word.
+    ///
+    /// * `share`: of its rows or readings [-]
+    #[must_use]
+    pub fn little_used(share: f64) -> Option<String> {
+        /// Source: ours.
+        const LEAST: f64 = 0.5;
+        (share < LEAST)
+            .then(|| format!("only {} % of the log could be used", (100.0 * share).floor()))
+    }
 
     /// The share of its rows, or readings, that was used so far [-].
     #[must_use]

@@ -100,14 +100,12 @@ fn check_several(paths: &[PathBuf], is_followed: bool) -> Result<(), Failure> {
 ///
 /// * `share`: of its rows or readings [-]
 pub(crate) fn check_share_used(label: &str, share: f64, args: &LogArgs) -> Result<(), Failure> {
-    if share >= TelemetryLog::LEAST_USED || args.accept_loss {
-        return Ok(());
+    match TelemetryLog::little_used(share).filter(|_| !args.accept_loss) {
+        None => Ok(()),
+        Some(words) => Err(Failure::Partly(format!(
+            "{label}: {words}, and the notes say why\nhint: --accept-loss takes it as it is"
+        ))),
     }
-    let percent = (100.0 * share).floor();
-    Err(Failure::Partly(format!(
-        "{label}: only {percent} % of the log could be used, and the notes say why\nhint: \
-         --accept-loss takes it as it is"
-    )))
 }
 
 /// What messages call a log.

@@ -310,13 +310,8 @@ impl ScenarioParts {
         folder: &ServedFolder,
         is_sampled: bool,
     ) -> Result<Vec<LoadedScenario>, Refusal> {
-        let read = |settings: &CommonSettings| {
-            let scenario = self.read(folder, settings, Use::Headings)?;
-            if is_sampled {
-                settings.refuse_sampled(folder, scenario.uncertain.as_ref())?;
-            }
-            Ok(scenario)
-        };
+        let read =
+            |settings: &CommonSettings| self.read(folder, settings, Use::Headings, is_sampled);
         self.settings.each_model().iter().map(read).collect()
     }
 
@@ -326,11 +321,7 @@ impl ScenarioParts {
         folder: &ServedFolder,
         is_sampled: bool,
     ) -> Result<LoadedScenario, Refusal> {
-        let scenario = self.read(folder, &self.settings, Use::AsItIs)?;
-        if is_sampled {
-            self.settings.refuse_sampled(folder, scenario.uncertain.as_ref())?;
-        }
-        Ok(scenario)
+        self.read(folder, &self.settings, Use::AsItIs, is_sampled)
     }
 
     /// The scenario of a run.
@@ -340,11 +331,7 @@ impl ScenarioParts {
         settings: &RunSettings,
         is_sampled: bool,
     ) -> Result<LoadedScenario, Refusal> {
-        let scenario = self.read(folder, &self.settings, Use::Run(settings))?;
-        if is_sampled {
-            self.settings.refuse_sampled(folder, scenario.uncertain.as_ref())?;
-        }
-        Ok(scenario)
+        self.read(folder, &self.settings, Use::Run(settings), is_sampled)
     }
 
     fn read(
@@ -352,6 +339,7 @@ impl ScenarioParts {
         folder: &ServedFolder,
         settings: &CommonSettings,
         of: Use<'_>,
+        is_sampled: bool,
     ) -> Result<LoadedScenario, Refusal> {
         let source = match &self.scenario {
             Some(name) => find("scenario", folder, Kind::Scenario, name)?,
@@ -386,7 +374,11 @@ impl ScenarioParts {
                 folder.set(&mut overrides, &key, &text_of(name)).map_err(blamed)?;
             }
         }
-        document::read_scenario(&source, &overrides).map_err(blamed)
+        let scenario = document::read_scenario(&source, &overrides).map_err(blamed)?;
+        if is_sampled {
+            settings.refuse_sampled(folder, scenario.uncertain.as_ref())?;
+        }
+        Ok(scenario)
     }
 
     pub(super) fn add_words(&self, line: &mut CommandLine) {

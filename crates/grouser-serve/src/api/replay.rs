@@ -105,12 +105,8 @@ impl ReplayAsked {
                 return Err(refused(AnswerError::Stopped));
             }
         }
-        let mut notes = log.notes();
-        let share = log.share_used();
-        if share < TelemetryLog::LEAST_USED {
-            let percent = (100.0 * share).floor();
-            notes.insert(0, format!("only {percent} % of the log could be used"));
-        }
+        let little = TelemetryLog::little_used(log.share_used());
+        let notes = little.into_iter().chain(log.notes()).collect();
         Ok(ReadLog { replayer, given: log.given(), notes })
     }
 }

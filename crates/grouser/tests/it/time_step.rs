@@ -107,7 +107,7 @@ proptest! {
         prop_assert!(stepped.residual <= 1e-6 * REST_SPEED, "{stepped:?}");
     }
 
-    /// The same reaction wherever it is sought from.
+    /// A reaction is the same wherever it is sought from.
     #[test]
     fn the_reaction_does_not_depend_on_where_it_is_sought_from(
         free in prop::array::uniform4(-0.3..0.3_f64),
