@@ -24,6 +24,7 @@ export class DesignAnswer extends StudyAnswer {
       start: "Search the design",
       hint: "The search starts when you ask for it: it takes seconds, and minutes where soils are uncertain or measures are traded.",
       none: "no design is searched yet",
+      failed: "no design",
     }, ended, started);
   }
 
@@ -43,11 +44,6 @@ export class DesignAnswer extends StudyAnswer {
    */
   others(all) {
     return all.filter((it) => !it.startsWith("Between "));
-  }
-
-  /** @override */
-  failed() {
-    this.first = "no design";
   }
 
   /** @override */

@@ -18,12 +18,8 @@ export class FitAnswer extends StudyAnswer {
       start: "Fit the soil",
       hint: "The fit starts when you ask for it: least squares alone take seconds, a posterior takes minutes.",
       none: "no soil is fitted yet",
+      failed: "no fit",
     }, ended, started);
-  }
-
-  /** @override */
-  failed() {
-    this.first = "no fit";
   }
 
   /**

@@ -12,7 +12,7 @@ import { setOf } from "./session.js";
 
 /** Samples of the answers: the soil as written, a draft, and the card's. */
 const STAGES = [0, 20, 200];
-/** Samples of the answers on other courses. */
+/** Samples of the first chart, and of answers on other courses than the contour. */
 const FEW = [0, 40];
 /** Slopes of the chart [°]. */
 const SLOPES = Array.from({ length: 16 }, (_, place) => 2 * place);
@@ -95,6 +95,8 @@ export class Card {
     }, (error) => {
       this.element.classList.remove("stale");
       if (error) this.fail();
+      // The chart's curve is then of as many samples as its point, and keeps nobody waiting.
+      else if (isContour && session.belief !== "nominal") this.askChart(STAGES.slice(-1));
       this.ended(error);
     });
     const map = { ...about(session), slope_deg: session.slope, course_deg: session.course, rim_speed_m_s: session.speed, nominal: true };
@@ -102,8 +104,14 @@ export class Card {
       this.power = line.rows?.[0];
       this.render();
     }, () => {});
+    this.askChart(stagesOf(session, FEW));
+  }
+
+  /** @param {number[]} stages */
+  askChart(stages) {
+    const { session } = this;
     const slopes = [...new Set([...SLOPES, session.slope])].sort((one, other) => one - other);
-    const chart = { ...about(session), slope_deg: slopes, stages: stagesOf(session, STAGES) };
+    const chart = { ...about(session), slope_deg: slopes, stages };
     this.askingChart.ask("heading", chart, (line) => {
       this.curve = line.rows ?? [];
       this.drawn();

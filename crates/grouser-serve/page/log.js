@@ -19,6 +19,7 @@ export class LogAnswer extends StudyAnswer {
       start: "Replay the log",
       hint: "A log of the folder is replayed when you ask for it: what its instruments read beside what is predicted at the wheel speeds and the attitude that they read, and what the differences point to.",
       none: "no log is replayed yet",
+      failed: "no replay",
     }, ended, started);
   }
 
@@ -30,10 +31,5 @@ export class LogAnswer extends StudyAnswer {
   question(session) {
     const samples = session.belief === "nominal" ? {} : { samples: SAMPLES };
     return ["replay", { ...aboutScenario(session), log: session.log, ...samples, shown: true, figures: true, slide: true }];
-  }
-
-  /** @override */
-  failed() {
-    this.first = "no replay";
   }
 }

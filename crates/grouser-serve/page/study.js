@@ -86,11 +86,13 @@ export class StudyAnswer {
    * @param {string} words.start what the start button says
    * @param {string} words.hint what stands there before the first answer
    * @param {string} words.none what is said then
+   * @param {string} words.failed what is said where there is no answer
    * @param {(error: Error | undefined) => void} ended
    * @param {() => void} started
    */
-  constructor({ start, hint, none }, ended, started) {
+  constructor({ start, hint, none, failed }, ended, started) {
     this.ended = ended;
+    this.failed = failed;
     /** @type {string | undefined} the picture for a slide */
     this.slide = undefined;
     this.first = this.before = none;
@@ -125,9 +127,6 @@ export class StudyAnswer {
     return all;
   }
 
-  /** Nothing was found. */
-  failed() {}
-
   /** @param {Session} session */
   ask(session) {
     // What is shown is of numbers that were moved since.
@@ -145,10 +144,9 @@ export class StudyAnswer {
       if (line.schema === "grouser.shown.v1") this.take(line);
     }, (error) => {
       if (error) {
-        this.first = this.before;
+        this.first = this.failed;
         this.slide = undefined;
         this.body.classList.remove("old");
-        this.failed();
         this.body.replaceChildren(element("p", { class: "error", id: "why-none" }, [error.message]));
       }
       this.ended(error);
