@@ -29,6 +29,22 @@ const MOST_STEPS: usize = 12;
 pub fn zero_near<T, D: Dim>(
     f: impl Fn(&OVector<f64, D>) -> Option<(OVector<f64, D>, T)>,
     guess: &OVector<f64, D>,
+    inverse: OMatrix<f64, D, D>,
+    size: impl Fn(&OVector<f64, D>) -> f64,
+    longest: f64,
+    is_zero: impl Fn(&OVector<f64, D>, &OVector<f64, D>) -> bool,
+) -> Option<Zero<T, D>>
+where
+    DefaultAllocator: Allocator<D> + Allocator<D, D> + Allocator<U1, D>,
+{
+    let start = f(guess)?;
+    zero_from(f, (guess.clone(), start), inverse, size, longest, is_zero)
+}
+
+/// The same from a point whose values are known.
+pub fn zero_from<T, D: Dim>(
+    f: impl Fn(&OVector<f64, D>) -> Option<(OVector<f64, D>, T)>,
+    (mut at, (mut here, mut value)): (OVector<f64, D>, (OVector<f64, D>, T)),
     mut inverse: OMatrix<f64, D, D>,
     size: impl Fn(&OVector<f64, D>) -> f64,
     longest: f64,
@@ -37,8 +53,6 @@ pub fn zero_near<T, D: Dim>(
 where
     DefaultAllocator: Allocator<D> + Allocator<D, D> + Allocator<U1, D>,
 {
-    let mut at = guess.clone();
-    let (mut here, mut value) = f(&at)?;
     let mut step = -(&inverse * &here);
     for _ in 0..MOST_STEPS {
         if is_zero(&here, &step) {

@@ -95,18 +95,18 @@ impl<'a, 'g> AlongGround<'a, 'g> {
         point: &mut Point,
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
-        let before = match before {
+        let (memory, before) = match before {
             Before::Steady(Carried { memory, stride, .. }) if !rims_changed => {
-                let solver = SteadySolver::new(equations, memory);
+                let solver = SteadySolver::new(equations, memory).ending_unseen();
                 let next = if stride.length > 0.0 { 2.0 * stride.length } else { f64::INFINITY };
                 return Ok(Self { equations, solver, stride, next });
             }
-            Before::Steady(Carried { rolled, .. }) => Before::Steady(rolled),
-            Before::Another => Before::Another,
-            Before::Nothing => Before::Nothing,
+            Before::Steady(Carried { memory, rolled, .. }) => (memory, Before::Steady(rolled)),
+            Before::Another => (Memory::default(), Before::Another),
+            Before::Nothing => (Memory::default(), Before::Nothing),
         };
         let (place, yaw) = (point.state.position, point.state.yaw);
-        let mut solver = SteadySolver::new(equations, Memory::default());
+        let mut solver = SteadySolver::new(equations, memory).ending_unseen();
         solver.go_to(place);
         let steady = solver.find_after(yaw, &point.velocities(), before)?;
         let from = Node::of(equations, &solver, place, yaw, steady)?;

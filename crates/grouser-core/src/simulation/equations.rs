@@ -114,6 +114,8 @@ enum Search {
     Anew,
     /// From the wheels of the last attempt.
     Nearby,
+    /// Beside the last attempt, which stays the last: to first order in how far.
+    Beside,
 }
 
 /// Time in which a yaw rate returns to the one that is held [s]. It never leaves it by more than
@@ -218,6 +220,9 @@ impl<'a> Equations<'a> {
             Search::Anew => self.on_ground.reactions(stance, &slips),
             Search::Nearby => {
                 self.on_ground.reactions_after(stance, &slips, &mut self.nearby.borrow_mut())
+            }
+            Search::Beside => {
+                self.on_ground.reactions_beside(stance, &slips, &mut self.nearby.borrow_mut())
             }
         }
     }
@@ -343,7 +348,7 @@ impl<'a> Equations<'a> {
         let (posture, up) = (&standing.posture, standing.up);
         let wheels = match search {
             Search::Anew => self.on_ground.reactions_standing(posture, up, &slips, &[])?,
-            Search::Nearby => {
+            Search::Nearby | Search::Beside => {
                 let mut near = self.nearby_standing.borrow_mut();
                 self.on_ground.reactions_standing_after(posture, up, &slips, &mut near)?
             }
@@ -504,12 +509,20 @@ impl<'a> Equations<'a> {
     /// that the answer differs in its last digits. A solver may try states that no rover can have,
     /// so the reason of a failure is kept for when it gives up.
     pub(super) fn attempt(&self, state: &RoverState) -> Option<Evaluation> {
+        self.attempt_by(Search::Nearby, state)
+    }
+
+    /// The same beside the last attempt, for a difference: to first order in how far.
+    pub(super) fn attempt_beside(&self, state: &RoverState) -> Option<Evaluation> {
+        self.attempt_by(Search::Beside, state)
+    }
+
+    fn attempt_by(&self, search: Search, state: &RoverState) -> Option<Evaluation> {
         if self.is_spent() {
             return None;
         }
         self.count(|work| work.evaluations += 1);
-        let evaluated =
-            self.evaluate_with(state, self.rim_speeds, &self.wheel_speeds, Search::Nearby);
+        let evaluated = self.evaluate_with(state, self.rim_speeds, &self.wheel_speeds, search);
         evaluated.map_err(|failure| self.keep(failure)).ok()
     }
 

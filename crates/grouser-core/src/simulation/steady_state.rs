@@ -12,6 +12,10 @@
 //! accelerations fade, which go the way that the rover would go. The Jacobian says how fast, and
 //! whether, a rover settles on its steady state.
 
+mod following;
+
+use std::cell::Cell;
+
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::equations::{Equations, Evaluation};
@@ -43,7 +47,7 @@ pub enum NotSteady {
     /// between standing and moving, and getting there takes its time.
     #[error("the wheels all but spin or are dragged: their mean slip ratio is {slip_ratio:.2}")]
     Spinning {
-        /// Mean size of the wheels' slip ratios [-].
+        /// Mean of the wheels' slip ratios [-].
         slip_ratio: f64,
     },
     /// Velocities take so long to settle that it shows.
@@ -113,11 +117,15 @@ pub(super) struct SteadySolver<'a, 'g> {
     memory: Memory,
     /// Where the rover is [m], which matters on uneven ground.
     place: Vec2,
+    /// Whether a short last step is taken without a look.
+    ends_unseen: bool,
 }
 
 /// What the last steady state teaches about the next one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Memory {
+    /// Speed that velocities were measured by [m/s].
+    scale: f64,
     /// Inverse Jacobian, (∂a/∂V)⁻¹ [s].
     inverse: Option<Matrix3<f64>>,
     /// The same of the motors' balances, too, and how the wheels turned.
@@ -126,11 +134,16 @@ pub(super) struct Memory {
     checked: Option<(f64, Vector3<f64>, f64)>,
 }
 
-stored!(struct Memory { inverse, with_motors, checked });
+stored!(struct Memory { scale, inverse, with_motors, checked });
 
 /// Velocities this near to those of the steady state are taken for it, over the fastest rim's speed
 /// [-]: a tenth of the relative tolerance of dynamic runs.
 const CLOSE: f64 = 1e-7;
+/// A step this short, over the fastest rim's speed [-], may be the last, after which nobody looks,
+/// where those before it say that it leaves less than the other: forces are then those of the place
+/// before it. Source: ours; a quasi-steady motion is a hundred times as far from the true one.
+const SHORT: f64 = 1e-5;
+const UNSEEN: f64 = 0.3 * CLOSE;
 /// Steps longer than this leave the neighbourhood in which a tangent tells anything, over the
 /// fastest rim's speed [-].
 const LONGEST: f64 = 0.5;
@@ -160,7 +173,18 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         let fastest = equations.rim_speeds().iter().fold(0.0, |most: f64, rim| most.max(rim.abs()));
         let arms = equations.rover().load_arms();
         let reach = arms.iter().map(Vec2::norm).fold(0.0, f64::max);
-        Self { equations, scale: fastest.max(CREEP_SPEED), reach, memory, place: Vec2::zeros() }
+        let scale = fastest.max(CREEP_SPEED);
+        // What a rover at rest teaches says nothing of one that moves.
+        let is_similar = SIMILAR.contains(&(scale / memory.scale));
+        let memory = if is_similar { memory } else { Memory::default() };
+        let memory = Memory { scale, ..memory };
+        Self { equations, scale, reach, memory, place: Vec2::zeros(), ends_unseen: false }
+    }
+
+    /// The same for a motion that goes on from one steady state to the next: a short last step of a
+    /// search is taken without a look at the forces after it.
+    pub(super) fn ending_unseen(self) -> Self {
+        Self { ends_unseen: true, ..self }
     }
 
     /// Sets the place [m] at which steady states are sought from now on.
@@ -280,16 +304,38 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         guess: &Vector3<f64>,
         inverse: Matrix3<f64>,
     ) -> Option<SteadyState> {
-        let zero = newton::zero_near(
+        let here = self.evaluate(yaw, guess)?;
+        self.correct_from(yaw, guess, here, inverse, LONGEST)
+    }
+
+    /// The same from where the motion was looked at already.
+    ///
+    /// * `longest`: step over the fastest rim's speed [-]
+    fn correct_from(
+        &mut self,
+        yaw: f64,
+        guess: &Vector3<f64>,
+        here: Evaluation,
+        inverse: Matrix3<f64>,
+        longest: f64,
+    ) -> Option<SteadyState> {
+        let before = Cell::new(f64::NAN);
+        let zero = newton::zero_from(
             |velocities| self.evaluate(yaw, velocities).map(|here| (acceleration_of(&here), here)),
-            guess,
+            (*guess, (acceleration_of(&here), here)),
             inverse,
             |step| self.size(step),
-            LONGEST,
-            |_, step| self.size(step) <= CLOSE,
+            longest,
+            |_, step| {
+                let size = self.size(step);
+                let left = size * size / before.replace(size);
+                size <= CLOSE || self.ends_unseen && size <= SHORT && left <= UNSEEN
+            },
         )?;
         self.memory.inverse = Some(zero.inverse);
-        Some(steady_state_at(yaw, zero.at, zero.value, None))
+        let step = -(zero.inverse * acceleration_of(&zero.value));
+        let velocities = if self.size(&step) > CLOSE { zero.at + step } else { zero.at };
+        Some(steady_state_at(yaw, velocities, zero.value, None))
     }
 
     /// The steady state of wheels whose speeds depend on their loads: their speeds are sought with
@@ -378,78 +424,41 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         turning
     }
 
-    /// Implicit Euler steps from the guess, linear in each, as long as the accelerations allow.
-    ///
-    /// * `most_longer`: how much longer steps become that change velocities little [-]
-    fn settle(&mut self, yaw: f64, guess: &Vector3<f64>, most_longer: f64) -> Option<SteadyState> {
-        /// The first step [s]: within the milliseconds in which slip settles.
-        const FIRST_STEP: f64 = 1e-3;
-        const MOST_STEPS: usize = 40;
-        /// A step that changes velocities by less is little, over the fastest rim's speed [-].
-        const SHARE: f64 = 0.1;
-        let mut velocities = *guess;
-        let mut here = self.evaluate(yaw, &velocities)?;
-        let mut span = FIRST_STEP;
-        for _ in 0..MOST_STEPS {
-            let acceleration = acceleration_of(&here);
-            let jacobian = self.jacobian(yaw, &velocities, &here, None)?;
-            if let Some(inverse) = jacobian.try_inverse()
-                && self.size(&(inverse * acceleration)) <= CLOSE
-            {
-                self.memory.inverse = Some(inverse);
-                return Some(steady_state_at(yaw, velocities, here, None));
-            }
-            let implicit = Matrix3::identity() / span - jacobian;
-            let step = implicit.try_inverse()? * acceleration;
-            match self.evaluate(yaw, &(velocities + step)) {
-                // A long way in one step: not what the rover would do.
-                Some(_) if self.size(&step) > 1.0 => span *= 0.1,
-                Some(next) => {
-                    let fading = acceleration.norm() / acceleration_of(&next).norm();
-                    // Accelerations that stay, as of a start, are followed by shares of the way.
-                    let share = (SHARE / self.size(&step)).min(most_longer);
-                    span *= fading.clamp(0.3, 10.0).max(share);
-                    velocities += step;
-                    here = next;
-                }
-                None => span *= 0.1,
-            }
-        }
-        None
-    }
-
     /// Checks that a rover settles on the steady state; returns the time in which it does [s]. The
-    /// last answer holds in its neighbourhood.
+    /// last answer holds in its neighbourhood; farther off the inverse that a search leaves says as
+    /// much, where neither of them is near the limits.
     pub(super) fn settling_time(&mut self, steady: &SteadyState) -> Result<f64, NotSteady> {
-        /// How far that is [rad], and over the fastest rim's speed [-].
+        /// How far the neighbourhood is [rad], and over the fastest rim's speed [-].
         const NEAR_YAW: f64 = 0.2;
         const NEAR_VELOCITIES: f64 = 0.05;
+        /// And how far it is that the inverse is asked [-].
+        const FAR_VELOCITIES: f64 = 0.5;
+        /// Rovers that settle within this surely settle in time [s].
+        const SURELY: f64 = 0.25 * LONGEST_SETTLING;
         if let Some((yaw, velocities, time)) = self.memory.checked
             && (yaw - steady.yaw).abs() < NEAR_YAW
-            && self.size(&(velocities - steady.velocities)) < NEAR_VELOCITIES
         {
-            return Ok(time);
+            let far = self.size(&(velocities - steady.velocities));
+            if far < NEAR_VELOCITIES {
+                return Ok(time);
+            }
+            let by_inverse = || self.memory.inverse?.try_inverse().and_then(|it| time_of(&it).ok());
+            if far < FAR_VELOCITIES
+                && time <= SURELY
+                && let Some(time) = by_inverse().filter(|time| *time <= SURELY)
+            {
+                return Ok(time);
+            }
         }
-        let slips = steady.wheels.iter().map(|wheel| wheel.slip.ratio.abs());
+        let slips = steady.wheels.iter().map(|wheel| wheel.slip.ratio);
         let slip_ratio = slips.sum::<f64>() / steady.wheels.len() as f64;
-        // Wheels that stand still hold the rover.
-        if slip_ratio > MOST_SLIP && !self.is_at_rest() {
+        // Wheels that stand still hold the rover, and wheels that turn against each other do.
+        if slip_ratio.abs() > MOST_SLIP && !self.is_at_rest() {
             return Err(NotSteady::Spinning { slip_ratio });
         }
         let jacobian = self.jacobian_of(steady).ok_or(NotSteady::NoSteadyState)?;
         self.memory.inverse = jacobian.try_inverse();
-        let slowest = jacobian
-            .complex_eigenvalues()
-            .iter()
-            .map(|value| value.re)
-            .fold(f64::NEG_INFINITY, f64::max);
-        if slowest >= 0.0 || slowest.is_infinite() {
-            return Err(NotSteady::Unstable { rate: slowest });
-        }
-        let time = -1.0 / slowest;
-        if time > LONGEST_SETTLING {
-            return Err(NotSteady::Slow { settling_time: time });
-        }
+        let time = time_of(&jacobian)?;
         self.memory.checked = Some((steady.yaw, steady.velocities, time));
         Ok(time)
     }
@@ -481,6 +490,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
     }
 
     /// ∂a/∂V, by forward differences.
+    ///
+    /// * `here`: there, the last evaluation
     fn jacobian(
         &self,
         yaw: f64,
@@ -494,12 +505,29 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         for (axis, step) in steps.into_iter().enumerate() {
             let mut beside = *velocities;
             beside[axis] += step;
-            let there = self.evaluate_at(yaw, &beside, rims)?;
+            let there = match rims {
+                None => self.equations.attempt_beside(&self.state_of(yaw, &beside))?,
+                Some(_) => self.evaluate_at(yaw, &beside, rims)?,
+            };
             let change = acceleration_of(&there) - acceleration_of(here);
             jacobian.set_column(axis, &(change / step));
         }
         Some(jacobian)
     }
+}
+
+/// The time in which disturbances of a steady state with this Jacobian fade by e [s].
+fn time_of(jacobian: &Matrix3<f64>) -> Result<f64, NotSteady> {
+    let rates = jacobian.complex_eigenvalues();
+    let slowest = rates.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
+    if slowest >= 0.0 || slowest.is_infinite() {
+        return Err(NotSteady::Unstable { rate: slowest });
+    }
+    let settling_time = -1.0 / slowest;
+    if settling_time > LONGEST_SETTLING {
+        return Err(NotSteady::Slow { settling_time });
+    }
+    Ok(settling_time)
 }
 
 /// Velocities of a rover that follows its rims as well as a rigid body can, at a light slip.

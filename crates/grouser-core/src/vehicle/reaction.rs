@@ -255,6 +255,25 @@ impl<'a> OnGround<'a> {
         slips: &[Slip],
         near: &mut Nearby<'a>,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
+        self.meet_near(stance, slips, near);
+        near.settle(self, stance, |contacts| self.settle_in_turns(stance, contacts, &[]))
+    }
+
+    /// Does the same for a motion beside the one that is known, which stays known: to first order in
+    /// how far it is, by one look at every wheel.
+    pub(crate) fn reactions_beside(
+        &self,
+        stance: &Stance,
+        slips: &[Slip],
+        near: &mut Nearby<'a>,
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
+        self.meet_near(stance, slips, near);
+        let beside = near.beside(self, stance);
+        beside.map_or_else(|| self.reactions_after(stance, slips, near), Ok)
+    }
+
+    /// What each wheel meets, kept with what is known of a motion nearby.
+    fn meet_near(&self, stance: &Stance, slips: &[Slip], near: &mut Nearby<'a>) {
         let soil = self.only_soil().map(|soil| (soil, stance.steepness));
         let is_same = matches!((soil, near.soil), (Some((one, steepness)), Some((other, before)))
             if std::ptr::eq(one, other) && steepness == before);
@@ -266,7 +285,6 @@ impl<'a> OnGround<'a> {
             self.meet(stance, slips, &mut near.contacts);
             near.soil = soil;
         }
-        near.settle(self, stance, |contacts| self.settle_in_turns(stance, contacts, &[]))
     }
 
     /// The soil under all wheels, where the ground has one in all places and no wheel changes it.

@@ -135,12 +135,7 @@ impl OnGround<'_> {
             let wheels = self.settle_under(stance, of_weight, contacts, &[]).ok()?;
             *near = Known::of_all(self, &wheels)?;
         }
-        let mut curves = Vec::with_capacity(contacts.len());
-        for (wheel, (contact, mount)) in contacts.iter().zip(self.rover.mounts()).enumerate() {
-            let relation = self.model.load_sinkage(contact);
-            let known = near.get(wheel);
-            curves.push(Curve::new(contact, relation, mount, known));
-        }
+        let mut curves = self.curves(contacts, near);
         let mut loads = vec![0.0; curves.len()];
         if near.is_empty() {
             let Self { rover, sharing: kind, own_moments, .. } = *self;
@@ -152,12 +147,40 @@ impl OnGround<'_> {
             self.try_next(&mut curves, &loads)?;
             sharing.meet(&curves, &mut loads)?;
             if curves.iter().zip(&loads).all(|(curve, load)| curve.is_met(elementary::ln(*load))) {
-                near.clear();
-                let each = curves.iter().zip(&loads);
-                return Some(each.map(|(curve, load)| curve.reaction(*load, near)).collect());
+                let each = curves.iter().zip(&loads).map(|(curve, load)| curve.reaction(*load));
+                let (wheels, known) = each.unzip();
+                *near = known;
+                return Some(wheels);
             }
         }
         None
+    }
+
+    /// The same of a motion beside the one that is known, by one look at every wheel: to first order
+    /// in how far it is, as differences need it. None where that is not known to so much.
+    pub(super) fn settle_beside(
+        &self,
+        stance: &Stance,
+        contacts: &[Contact],
+        near: &[Known],
+    ) -> Option<Vec<WheelReaction>> {
+        let is_known = near.len() == contacts.len() && near.iter().all(Known::has_slope);
+        let sharing = is_known.then(|| Sharing::of(self, stance))??;
+        let mut curves = self.curves(contacts, near);
+        let mut loads = vec![0.0; curves.len()];
+        sharing.meet(&curves, &mut loads)?;
+        self.try_next(&mut curves, &loads)?;
+        sharing.meet(&curves, &mut loads)?;
+        Some(curves.iter().zip(&loads).map(|(curve, load)| curve.reaction(*load).0).collect())
+    }
+
+    /// The curves of all wheels, as far as a motion nearby tells.
+    fn curves<'c>(&'c self, contacts: &'c [Contact], near: &[Known]) -> Vec<Curve<'c>> {
+        let each = contacts.iter().zip(self.rover.mounts()).enumerate();
+        each.map(|(wheel, (contact, mount))| {
+            Curve::new(contact, self.model.load_sinkage(contact), mount, near.get(wheel))
+        })
+        .collect()
     }
 
     /// Tries the sinkage of each wheel at which it should carry its load [N].
@@ -319,14 +342,13 @@ impl<'a> Curve<'a> {
         }
     }
 
-    /// The reaction under a load [N], which is known for a motion nearby from then on.
-    fn reaction(&self, load: f64, known: &mut Vec<Known>) -> WheelReaction {
+    /// The reaction under a load [N], and what is known of it for a motion nearby.
+    fn reaction(&self, load: f64) -> (WheelReaction, Known) {
         let place = self.at(elementary::ln(load));
         let (own, slip) = (elementary::exp(place.depth), self.contact.slip);
         let sinkage = self.correction.map_or(own, |correction| correction.sinkage(own));
         let settled = Settled { sinkage, forces: place.forces, evaluations: self.evaluations };
-        known.push(Known { slip, place, slope: self.slope });
-        WheelReaction { slip, load, settled }
+        (WheelReaction { slip, load, settled }, Known { slip, place, slope: self.slope })
     }
 
     /// The place last tried, or the one of a motion nearby.
@@ -522,11 +544,28 @@ impl Nearby<'_> {
     }
 }
 
+impl Nearby<'_> {
+    /// The reaction on every wheel of a motion beside the one that is known; none where that does
+    /// not tell it.
+    pub(super) fn beside(
+        &self,
+        ground: &OnGround<'_>,
+        stance: &Stance,
+    ) -> Option<Vec<WheelReaction>> {
+        ground.settle_beside(stance, &self.contacts, &self.wheels)
+    }
+}
+
 impl Known {
     /// Returns what is known of wheels that were settled; none where one is not carried.
     pub(crate) fn of_all(ground: &OnGround<'_>, wheels: &[WheelReaction]) -> Option<Vec<Self>> {
         let each = wheels.iter().zip(ground.rover.mounts());
         each.map(|(wheel, mount)| Self::of(ground, mount, wheel)).collect()
+    }
+
+    /// Whether how forces change with the load was seen.
+    fn has_slope(&self) -> bool {
+        self.slope.width.is_finite()
     }
 
     /// Returns what is known of a wheel; as yet its forces change with the load as those of a

@@ -1,0 +1,131 @@
+//! The steady state that a rover comes to from velocities far from it.
+//!
+//! Implicit Euler steps, linear in each, go the way that the rover would go:
+//!
+//! ```text
+//! (1/h − J) ΔV = a(V)
+//! ```
+//!
+//! A step whose end has other accelerations than the tangent said is taken again, shorter; where
+//! accelerations fade, steps lengthen, and from nearby Newton's steps lead on.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::{CLOSE, SteadySolver, SteadyState, acceleration_of, steady_state_at};
+use crate::simulation::equations::Evaluation;
+
+/// A step that the tangent foresaw well enough.
+struct Step {
+    velocities: Vector3<f64>,
+    there: Evaluation,
+    /// How long the next one may be [s].
+    next_span: f64,
+}
+
+/// Steps, those taken again included.
+const MOST_STEPS: usize = 40;
+/// The first step [s]: within the milliseconds in which slip settles.
+const FIRST_STEP: f64 = 1e-3;
+/// A step whose end the tangent missed by more than so many times the accelerations at its start is
+/// taken again, and how much shorter [-].
+const MOST_MISSED: f64 = 1.5;
+const SHORTER: f64 = 0.25;
+/// How far the tangent may miss the end of the next step, expected to be in proportion to its
+/// length: less than the first is no reason for a short one, and the second is [-].
+const MISSED: (f64, f64) = (0.1, 1.0);
+/// A step is this much shorter where it has no end, or one that the rover would not come to.
+const MUCH_SHORTER: f64 = 0.1;
+/// The least and the most that a step is as long as the one before it [-].
+const CHANGE: (f64, f64) = (0.3, 10.0);
+/// A step that changes velocities by less is little, over the fastest rim's speed [-].
+const LITTLE: f64 = 0.1;
+/// Newton's step from which on Newton's steps alone lead there, over the fastest rim's speed [-],
+/// unless they lead farther than so many times that.
+const NEAR: f64 = 0.03;
+const STRAYING: f64 = 2.0;
+
+impl SteadySolver<'_, '_> {
+    /// The steady state that a rover comes to from the guess.
+    ///
+    /// * `most_longer`: how much longer steps become that change velocities little [-]
+    pub(super) fn settle(
+        &mut self,
+        yaw: f64,
+        guess: &Vector3<f64>,
+        most_longer: f64,
+    ) -> Option<SteadyState> {
+        let mut velocities = *guess;
+        let mut here = self.evaluate(yaw, &velocities)?;
+        let (mut span, mut left) = (FIRST_STEP, MOST_STEPS);
+        while left > 0 {
+            let jacobian = self.jacobian(yaw, &velocities, &here, None)?;
+            if let Some(steady) = self.end_near(yaw, &velocities, &here, &jacobian) {
+                return Some(steady);
+            }
+            let from = (&velocities, acceleration_of(&here));
+            let step = self.follow(yaw, from, &jacobian, &mut left, (span, most_longer))?;
+            (velocities, here, span) = (step.velocities, step.there, step.next_span);
+        }
+        None
+    }
+
+    /// The steady state, where it is near.
+    fn end_near(
+        &mut self,
+        yaw: f64,
+        velocities: &Vector3<f64>,
+        here: &Evaluation,
+        jacobian: &Matrix3<f64>,
+    ) -> Option<SteadyState> {
+        let inverse = jacobian.try_inverse()?;
+        let way = self.size(&(inverse * acceleration_of(here)));
+        if way <= CLOSE {
+            self.memory.inverse = Some(inverse);
+            return Some(steady_state_at(yaw, *velocities, here.clone(), None));
+        }
+        let longest = STRAYING * way;
+        let found = (way <= NEAR)
+            .then(|| self.correct_from(yaw, velocities, here.clone(), inverse, longest))??;
+        (self.size(&(found.velocities - velocities)) <= longest).then_some(found)
+    }
+
+    /// A step, as long as the tangent foresees it.
+    ///
+    /// * `from`: velocities and accelerations
+    /// * `left`: steps
+    fn follow(
+        &self,
+        yaw: f64,
+        (from, acceleration): (&Vector3<f64>, Vector3<f64>),
+        jacobian: &Matrix3<f64>,
+        left: &mut usize,
+        (mut span, most_longer): (f64, f64),
+    ) -> Option<Step> {
+        let size = |acceleration: &Vector3<f64>| {
+            Vector3::new(acceleration.x, acceleration.y, acceleration.z * self.reach).norm()
+        };
+        while *left > 0 {
+            *left -= 1;
+            let step = (Matrix3::identity() / span - jacobian).try_inverse()? * acceleration;
+            // A long way in one step is not what the rover would do.
+            let is_short = self.size(&step) <= 1.0;
+            let Some(there) = is_short.then(|| self.evaluate(yaw, &(from + step))).flatten() else {
+                span *= MUCH_SHORTER;
+                continue;
+            };
+            let reached = acceleration_of(&there);
+            let missed = size(&(reached - step / span)) / size(&acceleration);
+            if missed > MOST_MISSED {
+                span *= SHORTER;
+                continue;
+            }
+            let fading = size(&acceleration) / size(&reached);
+            // Accelerations that stay, as of a start, are followed by shares of the way.
+            let share = (LITTLE / self.size(&step)).min(most_longer);
+            let longer = fading.max(MISSED.0 / missed).min(CHANGE.1).max(share);
+            let next_span = span * longer.min(MISSED.1 / missed).max(CHANGE.0);
+            return Some(Step { velocities: from + step, there, next_span });
+        }
+        None
+    }
+}
