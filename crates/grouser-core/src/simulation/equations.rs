@@ -10,12 +10,13 @@ use super::scenario::Scenario;
 use super::turning::Turning;
 use super::work::Work;
 use crate::contact::Slip;
+use crate::stored::stored;
 use crate::units::Vec2;
 use crate::vehicle::kinematics::{wheel_slips, wheel_velocity};
 use crate::vehicle::on_ground::forces_of;
 use crate::vehicle::posture::{Attitude, StandingMotion};
 use crate::vehicle::stability::stability_margin;
-use crate::vehicle::standing::NearbyStanding;
+use crate::vehicle::standing::{KnownStanding, NearbyStanding};
 use crate::vehicle::statics::centre_of_mass;
 use crate::vehicle::{
     Acceleration, BellyPoint, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture,
@@ -89,6 +90,16 @@ pub struct Evaluation {
     /// Each wheel, settled, in the mounts' order.
     pub wheels: Vec<WheelReaction>,
 }
+
+/// What is known of the wheels from one piece of a run to the next; nothing at its start.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LastWheels {
+    pub(super) on_plane: Vec<Known>,
+    /// On uneven ground.
+    pub(super) standing: KnownStanding,
+}
+
+stored!(struct LastWheels { on_plane, standing });
 
 /// Rates of change of a rover's motion, and the powers of its energy balance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -168,14 +179,16 @@ impl<'a> Equations<'a> {
     }
 
     /// The same with what is known of the wheels in a motion nearby.
-    pub(super) fn near(self, wheels: Vec<Known>) -> Self {
-        self.nearby.borrow_mut().wheels = wheels;
+    pub(super) fn near(self, wheels: LastWheels) -> Self {
+        self.nearby.borrow_mut().wheels = wheels.on_plane;
+        *self.nearby_standing.borrow_mut() = NearbyStanding::of(wheels.standing);
         self
     }
 
     /// What is known of the wheels now.
-    pub(super) fn take_near(&self) -> Vec<Known> {
-        std::mem::take(&mut self.nearby.borrow_mut().wheels)
+    pub(super) fn take_near(&self) -> LastWheels {
+        let on_plane = std::mem::take(&mut self.nearby.borrow_mut().wheels);
+        LastWheels { on_plane, standing: self.nearby_standing.take().known }
     }
 
     /// The soil's reaction on each wheel: kinematics, slip, loads, sinkage, forces.
@@ -346,13 +359,16 @@ impl<'a> Equations<'a> {
         let slips = slips_of(rover, &standing, rim_speeds);
         self.count(|work| work.settled_wheels += slips.len() as u64);
         let (posture, up) = (&standing.posture, standing.up);
+        let (near, ground) = (&self.nearby_standing, &self.on_ground);
         let wheels = match search {
-            Search::Anew => self.on_ground.reactions_standing(posture, up, &slips, &[])?,
-            Search::Nearby | Search::Beside => {
-                let mut near = self.nearby_standing.borrow_mut();
-                self.on_ground.reactions_standing_after(posture, up, &slips, &mut near)?
+            Search::Anew => ground.reactions_standing(posture, up, &slips, &[]),
+            Search::Nearby => {
+                ground.reactions_standing_after(posture, up, &slips, &mut near.borrow_mut())
             }
-        };
+            Search::Beside => {
+                ground.reactions_standing_beside(posture, up, &slips, &mut near.borrow_mut())
+            }
+        }?;
         let resultant = self.on_ground.resultant(&standing, &wheels);
         let pull = standing.pull(rover.mass() * gravity);
         let motion = standing.motion;

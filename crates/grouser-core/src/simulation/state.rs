@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::equations::Equations;
+use super::equations::{Equations, LastWheels};
 use super::integrate::History;
 use super::method::Method;
 use super::most_taken::MostTaken;
@@ -17,7 +17,6 @@ use super::turning::Turning;
 use super::watch::{WATCH_PERIOD, Watch};
 use super::work::Work;
 use crate::stored::{self, Stored};
-use crate::vehicle::settling::Known;
 use crate::vehicle::{Rover, RoverState, WheelReaction};
 
 /// All that changes in a run: where the rover is, how it and its wheels move, its energies, and
@@ -57,7 +56,7 @@ pub struct State {
     /// What the solver keeps of the quasi-steady motion so far.
     pub(super) carried: Carried,
     /// The wheels where the motion was last evaluated.
-    pub(super) near: Vec<Known>,
+    pub(super) near: LastWheels,
 }
 
 /// Why bytes are no state of a run.
@@ -112,7 +111,7 @@ impl State {
             most_taken: None,
             history: History::default(),
             carried: Carried::default(),
-            near: Vec::new(),
+            near: LastWheels::default(),
         }
     }
 

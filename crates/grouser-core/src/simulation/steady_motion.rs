@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 
-use super::equations::Equations;
+use super::equations::{Equations, LastWheels};
 
 use super::scenario::ROLLING_SHARE;
 use super::steady_state::{Memory, NotSteady, SteadySolver, SteadyState, rolling};
@@ -95,7 +95,8 @@ impl SteadyMotion {
         yaw: f64,
     ) -> Result<Self, NotSteady> {
         let here = Vector3::new(self.velocity.x, self.velocity.y, self.yaw_rate);
-        let known = Known::of_all(&ground, &self.wheels).unwrap_or_default();
+        let on_plane = Known::of_all(&ground, &self.wheels).unwrap_or_default();
+        let known = LastWheels { on_plane, ..LastWheels::default() };
         let equations =
             Equations::new(ground, rim_speeds).holding(self.is_held.then_some(0.0)).near(known);
         Self::near(&equations, yaw, &here, self.memory.clone())

@@ -100,6 +100,13 @@ pub(super) struct Twist {
     pub(super) angular: Vec3,
 }
 
+impl Twist {
+    /// The work of a force on the hub and a moment about it.
+    pub(super) fn work_of(&self, force: &Vec3, moment: &Vec3) -> f64 {
+        force.dot(&self.linear) + moment.dot(&self.angular)
+    }
+}
+
 /// How a rover on uneven ground moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StandingMotion {

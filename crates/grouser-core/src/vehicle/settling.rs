@@ -27,7 +27,7 @@ use super::parts::Mount;
 use crate::contact::discrepancy::{self, Correction};
 use crate::contact::equilibrium::{grows_as_usual, is_usual_step};
 use crate::contact::load_sinkage::LoadSinkage;
-use crate::contact::{Contact, Settled, Slip, WheelForces, WheelSoilModel};
+use crate::contact::{Contact, Settled, Slip, WheelForces, WheelSoilModel, settle};
 use crate::soil::Soil;
 use crate::stored::stored;
 use crate::terrain::Ground;
@@ -146,7 +146,7 @@ impl OnGround<'_> {
         for _ in 0..MOST_ROUNDS {
             self.try_next(&mut curves, &loads)?;
             sharing.meet(&curves, &mut loads)?;
-            if curves.iter().zip(&loads).all(|(curve, load)| curve.is_met(elementary::ln(*load))) {
+            if curves.iter().zip(&loads).all(|(curve, load)| curve.is_met(*load)) {
                 let each = curves.iter().zip(&loads).map(|(curve, load)| curve.reaction(*load));
                 let (wheels, known) = each.unzip();
                 *near = known;
@@ -176,43 +176,31 @@ impl OnGround<'_> {
 
     /// The curves of all wheels, as far as a motion nearby tells.
     fn curves<'c>(&'c self, contacts: &'c [Contact], near: &[Known]) -> Vec<Curve<'c>> {
-        let each = contacts.iter().zip(self.rover.mounts()).enumerate();
-        each.map(|(wheel, (contact, mount))| {
-            Curve::new(contact, self.model.load_sinkage(contact), mount, near.get(wheel))
-        })
-        .collect()
+        let each = contacts.iter().enumerate();
+        each.map(|(wheel, contact)| Curve::new(self.model, contact, near.get(wheel))).collect()
     }
 
     /// Tries the sinkage of each wheel at which it should carry its load [N].
     fn try_next(&self, curves: &mut [Curve<'_>], loads: &[f64]) -> Option<()> {
         let depths = curves.iter().zip(loads).map(|(curve, load)| curve.next_depth(*load));
         let depths: Vec<f64> = depths.collect::<Option<_>>()?;
-        let all = forces_at(self.model, curves, &depths);
-        for ((curve, depth), forces) in curves.iter_mut().zip(depths).zip(all) {
-            if forces.normal_force < f64::MIN_POSITIVE {
-                return None;
-            }
+        for ((curve, mount), depth) in curves.iter_mut().zip(self.rover.mounts()).zip(depths) {
+            let forces = curve.forces(depth);
             let moments =
-                load::moments_of(self.rover, curve.mount, self.sharing, self.own_moments, &forces);
-            let load = elementary::ln(forces.normal_force);
-            curve.add(Place { depth, load, forces, moments })?;
+                load::moments_of(self.rover, mount, self.sharing, self.own_moments, &forces);
+            curve.add(Place::at(depth, forces, moments)?)?;
         }
         Some(())
     }
 }
 
-/// The forces of all wheels, each at a sinkage ln *h*.
-fn forces_at(model: &dyn WheelSoilModel, curves: &[Curve<'_>], depths: &[f64]) -> Vec<WheelForces> {
-    let each = curves.iter().zip(depths);
-    let forces = |(curve, depth): (&Curve<'_>, &f64)| {
-        let sinkage = elementary::exp(*depth);
-        let own = match &curve.relation {
-            Some(relation) => relation.forces(curve.contact, sinkage),
-            None => model.forces(curve.contact, sinkage),
-        };
-        curve.correction.map_or(own, |correction| correction.forces(own))
-    };
-    each.map(forces).collect()
+impl Place {
+    /// None where the soil carries nothing there.
+    fn at(depth: f64, forces: WheelForces, moments: Vec2) -> Option<Self> {
+        let is_carried = forces.normal_force >= f64::MIN_POSITIVE;
+        let load = is_carried.then(|| elementary::ln(forces.normal_force))?;
+        Some(Self { depth, load, forces, moments })
+    }
 }
 
 /// How the weight is shared among wheels that all stand: linear in the moments.
@@ -292,12 +280,12 @@ impl Sharing {
 }
 
 /// A wheel's sinkage and forces over ln F_z, as far as they are known.
-struct Curve<'a> {
+pub(super) struct Curve<'a> {
+    model: &'a dyn WheelSoilModel,
     contact: &'a Contact,
     relation: Option<LoadSinkage>,
     /// What the soil's discrepancy adds; sinkages in here are the model's own.
     correction: Option<Correction>,
-    mount: &'a Mount,
     /// With which F_z grows for shallow sinkage.
     exponent: f64,
     /// ln r_s.
@@ -314,12 +302,12 @@ struct Curve<'a> {
 impl<'a> Curve<'a> {
     /// Starts the curve of a wheel whose model gives its shallow sinkage, or of which a motion
     /// nearby is known.
-    fn new(
+    pub(super) fn new(
+        model: &'a dyn WheelSoilModel,
         contact: &'a Contact,
-        relation: Option<LoadSinkage>,
-        mount: &'a Mount,
         known: Option<&Known>,
     ) -> Self {
+        let relation = model.load_sinkage(contact);
         let exponent = relation.as_ref().map_or(USUAL_EXPONENT, LoadSinkage::exponent);
         let (place, slope, change) = match known {
             Some(known) => (known.place, known.slope, difference(&known.slip, &contact.slip)),
@@ -328,10 +316,10 @@ impl<'a> Curve<'a> {
         let axle = elementary::ln(contact.wheel.shearing_radius());
         let places = [place; POINTS];
         Self {
+            model,
             contact,
             relation,
             correction: Correction::of(contact),
-            mount,
             exponent,
             axle,
             places,
@@ -342,13 +330,34 @@ impl<'a> Curve<'a> {
         }
     }
 
+    /// The forces at a sinkage ln *h*.
+    fn forces(&self, depth: f64) -> WheelForces {
+        let sinkage = elementary::exp(depth);
+        let own = match &self.relation {
+            Some(relation) => relation.forces(self.contact, sinkage),
+            None => self.model.forces(self.contact, sinkage),
+        };
+        self.correction.map_or(own, |correction| correction.forces(own))
+    }
+
     /// The reaction under a load [N], and what is known of it for a motion nearby.
-    fn reaction(&self, load: f64) -> (WheelReaction, Known) {
+    pub(super) fn reaction(&self, load: f64) -> (WheelReaction, Known) {
         let place = self.at(elementary::ln(load));
         let (own, slip) = (elementary::exp(place.depth), self.contact.slip);
         let sinkage = self.correction.map_or(own, |correction| correction.sinkage(own));
         let settled = Settled { sinkage, forces: place.forces, evaluations: self.evaluations };
         (WheelReaction { slip, load, settled }, Known { slip, place, slope: self.slope })
+    }
+
+    /// The reaction without a load.
+    pub(super) fn unloaded(&self) -> Option<WheelReaction> {
+        let settled = settle(self.model, self.contact, 0.0).ok()?;
+        Some(WheelReaction { slip: self.contact.slip, load: 0.0, settled })
+    }
+
+    /// Whether no place was tried.
+    pub(super) fn is_new(&self) -> bool {
+        self.count == 0
     }
 
     /// The place last tried, or the one of a motion nearby.
@@ -357,7 +366,7 @@ impl<'a> Curve<'a> {
     }
 
     /// Whether a place is known, here or in a motion nearby.
-    fn is_known(&self) -> bool {
+    pub(super) fn is_known(&self) -> bool {
         self.count > 0 || self.change.is_finite()
     }
 
@@ -370,6 +379,25 @@ impl<'a> Curve<'a> {
         }
         let depth = self.depth_at(elementary::ln(load));
         is_usual_step(self.last().depth, depth, self.axle).then_some(depth)
+    }
+
+    /// Looks at the forces at the sinkage at which it should carry a load [N]; none where the search
+    /// leaves its usual way.
+    pub(super) fn look(&mut self, load: f64) -> Option<()> {
+        let depth = self.next_depth(load)?;
+        self.add(Place::at(depth, self.forces(depth), Vec2::zeros())?)
+    }
+
+    /// The forces under a load [N], and how they change with it [1/N].
+    pub(super) fn under(&self, load: f64) -> (WheelForces, WheelForces) {
+        (self.at(elementary::ln(load)).forces, self.slope.forces * (1.0 / load))
+    }
+
+    /// The sinkage under a load [N], and how it changes with it [m/N].
+    pub(super) fn sinkage(&self, load: f64) -> (f64, f64) {
+        let own = elementary::exp(self.depth_at(elementary::ln(load)));
+        let sinkage = self.correction.map_or(own, |correction| correction.sinkage(own));
+        (sinkage, sinkage * self.slope.depth / load)
     }
 
     /// Adds a place that was tried; none where F_z does not grow with the sinkage as it should.
@@ -427,8 +455,9 @@ impl<'a> Curve<'a> {
         Slope { depth, forces: place.forces, moments: place.moments, width: f64::INFINITY }
     }
 
-    /// Whether the curve at a load ln *F_z* is as exact as rounding.
-    fn is_met(&self, load: f64) -> bool {
+    /// Whether the curve under a load [N] is as exact as rounding.
+    pub(super) fn is_met(&self, load: f64) -> bool {
+        let load = elementary::ln(load);
         let near = (load - self.last().load).abs();
         let others =
             if self.count > 1 { self.far(load) } else { self.slope.width.max(self.change) };
@@ -564,7 +593,7 @@ impl Known {
     }
 
     /// Whether how forces change with the load was seen.
-    fn has_slope(&self) -> bool {
+    pub(super) fn has_slope(&self) -> bool {
         self.slope.width.is_finite()
     }
 
@@ -575,13 +604,12 @@ impl Known {
         let OnGround { ground: Ground { soil, .. }, gravity, .. } = *ground;
         let contact = Contact { wheel: mount.unit.wheel, soil: *soil, slip: wheel.slip, gravity };
         let sinkage = discrepancy::own_sinkage(&contact, wheel.settled.sinkage);
-        if sinkage <= 0.0 || forces.normal_force < f64::MIN_POSITIVE {
+        if sinkage <= 0.0 {
             return None;
         }
         let moments =
             load::moments_of(ground.rover, mount, ground.sharing, ground.own_moments, &forces);
-        let load = elementary::ln(forces.normal_force);
-        let place = Place { depth: elementary::ln(sinkage), load, forces, moments };
+        let place = Place::at(elementary::ln(sinkage), forces, moments)?;
         let slope = Slope { depth: 1.0 / USUAL_EXPONENT, forces, moments, width: f64::INFINITY };
         Some(Self { slip: wheel.slip, place, slope })
     }

@@ -3,7 +3,9 @@
 //! Its posture follows from the ground as if that were firm, as on a plane: what wheels sink
 //! changes no lever. Loads and reactions are sought together, N = N(forces(N)), by Newton's method
 //! with Broyden's updates from the loads of wheels that only stand, or from those of a motion
-//! nearby.
+//! nearby; usually by `together`, which looks at each wheel as it settles.
+
+mod together;
 
 use std::cell::{Cell, RefCell};
 
@@ -22,6 +24,7 @@ use crate::root;
 use crate::soil::Soil;
 use crate::terrain::{Footprint, Patch, Share, Terrain};
 use crate::units::{Vec2, Vec3};
+pub(crate) use together::KnownStanding;
 
 /// The plane of the slope frame: level in it.
 struct Flat;
@@ -142,7 +145,7 @@ impl OnGround<'_> {
         slips: &[Slip],
         near: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let mut near = NearbyStanding { wheels: near.to_vec(), inverse: None };
+        let mut near = NearbyStanding { wheels: near.to_vec(), ..NearbyStanding::default() };
         self.reactions_standing_after(posture, up, slips, &mut near)
     }
 
@@ -157,38 +160,45 @@ impl OnGround<'_> {
         slips: &[Slip],
         near: &mut NearbyStanding,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let weight = self.rover.mass() * self.gravity;
-        let NearbyStanding { wheels: before, inverse } = std::mem::take(near);
-        let met = self.met(posture, slips);
-        let sinkages = RefCell::new(before.iter().map(|wheel| wheel.settled.sinkage).collect());
-        let sought = Sought { ground: self, posture, met, weight: weight * up, sinkages };
-        let guess = if before.is_empty() {
-            DVector::from_vec(sought.balanced(&[])?)
-        } else {
-            DVector::from_iterator(before.len(), before.iter().map(|wheel| wheel.load))
-        };
-        let size = guess.len();
-        let found = inverse
-            .and_then(|inverse| sought.by_newton(&guess, inverse, weight))
-            .or_else(|| sought.by_newton(&guess, DMatrix::identity(size, size), weight));
-        let (loads, wheels) = match found {
-            Some(found) => {
-                near.inverse = Some(found.inverse);
-                (found.at, found.value)
+        let sought = self.sought(posture, up, slips, &near.wheels);
+        let wheels = match sought.together(&mut near.known) {
+            Some(wheels) => {
+                near.inverse = None;
+                wheels
             }
-            // Where wheels lift, loads have corners, which Newton's steps do not find.
-            None => sought.by_damped_steps(guess, weight)?,
-        };
-        let wheels = if loads.iter().any(|load| *load < -NEARLY * weight) {
-            // A rigid rover stands on the others, as on a plane.
-            let (_, wheels) = sought.on_others(&loads, weight).ok_or(Tipping)?;
-            near.inverse = None;
-            wheels
-        } else {
-            wheels
+            None => sought.in_turns(near)?,
         };
         near.wheels.clone_from(&wheels);
         Ok(wheels)
+    }
+
+    /// The same of a motion beside the one that is known, which stays known: to first order in how
+    /// far it is, by one look at every wheel.
+    ///
+    /// # Errors
+    /// The same as [`reactions_standing`](Self::reactions_standing).
+    pub(crate) fn reactions_standing_beside(
+        &self,
+        posture: &Posture,
+        up: Vec3,
+        slips: &[Slip],
+        near: &mut NearbyStanding,
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
+        let beside = self.sought(posture, up, slips, &[]).beside(&near.known);
+        beside.map_or_else(|| self.reactions_standing_after(posture, up, slips, near), Ok)
+    }
+
+    /// * `before`: the wheels in a motion nearby, or none
+    fn sought<'a>(
+        &'a self,
+        posture: &'a Posture,
+        up: Vec3,
+        slips: &[Slip],
+        before: &[WheelReaction],
+    ) -> Sought<'a> {
+        let sinkages = RefCell::new(before.iter().map(|wheel| wheel.settled.sinkage).collect());
+        let weight = self.rover.mass() * self.gravity * up;
+        Sought { ground: self, posture, met: self.met(posture, slips), weight, sinkages }
     }
 
     /// The same of a rover on a suspension on a plane.
@@ -288,6 +298,15 @@ pub(crate) struct NearbyStanding {
     /// How loads follow from by how much they do not agree with the forces under them, where that
     /// is known.
     inverse: Option<DMatrix<f64>>,
+    /// What wheels that settled together know.
+    pub(crate) known: KnownStanding,
+}
+
+impl NearbyStanding {
+    /// By what wheels that settled together know.
+    pub(crate) fn of(known: KnownStanding) -> Self {
+        Self { known, ..Self::default() }
+    }
 }
 
 /// The last step of a load, over the weight [-]: what is left of it disturbs an integrator's steps.
@@ -310,6 +329,36 @@ struct Sought<'a> {
 }
 
 impl Sought<'_> {
+    /// The reaction on every wheel, loads and wheels in turn, from those of a motion nearby.
+    fn in_turns(&self, near: &mut NearbyStanding) -> Result<Vec<WheelReaction>, ReactionError> {
+        let weight = self.weight.norm();
+        let NearbyStanding { wheels: before, inverse, .. } = std::mem::take(near);
+        let guess = if before.is_empty() {
+            DVector::from_vec(self.balanced(&[])?)
+        } else {
+            DVector::from_iterator(before.len(), before.iter().map(|wheel| wheel.load))
+        };
+        let size = guess.len();
+        let found = inverse
+            .and_then(|inverse| self.by_newton(&guess, inverse, weight))
+            .or_else(|| self.by_newton(&guess, DMatrix::identity(size, size), weight));
+        let (loads, wheels) = match found {
+            Some(found) => {
+                near.inverse = Some(found.inverse);
+                (found.at, found.value)
+            }
+            // Where wheels lift, loads have corners, which Newton's steps do not find.
+            None => self.by_damped_steps(guess, weight)?,
+        };
+        if loads.iter().all(|load| *load >= -NEARLY * weight) {
+            return Ok(wheels);
+        }
+        // A rigid rover stands on the others, as on a plane.
+        near.inverse = None;
+        let (_, wheels) = self.on_others(&loads, weight).ok_or(Tipping)?;
+        Ok(wheels)
+    }
+
     /// How far loads [N] are from those that balance the forces under them, and the wheels under
     /// them.
     fn next(

@@ -19,10 +19,10 @@
 //! rigid one with more has the loads of least norm, as on a plane. Links weigh nothing but their
 //! wheels.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, SVector};
 
 use super::load::{LoadSharing, OwnMoments, Tipping};
-use super::posture::{OF_BODY, Posture, StandingWheel};
+use super::posture::{OF_BODY, Posture, StandingWheel, Twist};
 use super::rover::Rover;
 use crate::contact::WheelForces;
 use crate::units::Vec3;
@@ -89,6 +89,35 @@ impl Balance {
         least_norm(&matrix, &side).ok_or(Tipping)
     }
 
+    /// How the loads of least norm follow from the forces along the ground, which is linear while
+    /// the rover stands so; none where no loads balance it, and where forces move none.
+    ///
+    /// * `weight`: as for [`loads`](Self::loads)
+    pub(super) fn transfer(
+        self,
+        rover: &Rover,
+        posture: &Posture,
+        weight: Vec3,
+    ) -> Option<Transfer> {
+        if self.sharing == LoadSharing::Uniform {
+            return None;
+        }
+        let ways = ways(rover, posture);
+        let (matrix, side) = self.equations(rover, posture, weight, &[]);
+        let inverse = right_inverse(&matrix)?;
+        let each = posture.wheels.iter().zip(rover.mounts()).zip(ways);
+        let by_forces = each.map(|((wheel, mount), ways)| {
+            let of_unit = |unit: &WheelForces| {
+                let (force, moment) = self.along(wheel, mount.shearing_radius(), unit);
+                let work = ways.iter().map(|way| -way.work_of(&force, &moment));
+                &inverse * DVector::from_iterator(ways.len(), work)
+            };
+            DMatrix::from_columns(&units().each_ref().map(of_unit))
+        });
+        let by_forces = by_forces.collect();
+        Some(Transfer { of_weight: inverse * side, by_forces })
+    }
+
     /// Loads of least norm that balance a rigid rover on the wheels that are left when one is
     /// lifted, in the mounts' order [N]. In the lifted wheel's place is the load that it would have
     /// as one of them: where that is negative, it would have to be held down.
@@ -125,31 +154,17 @@ impl Balance {
         weight: Vec3,
         forces: &[WheelForces],
     ) -> (DMatrix<f64>, DVector<f64>) {
-        let wheels = &posture.wheels;
-        let centre = centre_of_mass(rover, posture);
-        let [x, y, z] = posture.axes();
-        // Links: what all wheels' share of the acceleration and the weight takes of each force.
-        let mut carried = vec![Vec3::zeros(); posture.freedoms()];
-        for (wheel, mount) in wheels.iter().zip(rover.mounts()) {
-            let share = mount.unit.mass / rover.mass();
-            for (sum, twist) in
-                carried.iter_mut().zip(posture.twists(wheel, [z, x, y], centre)).skip(OF_BODY)
-            {
-                *sum += share * twist.linear;
-            }
-        }
-        let mut matrix = DMatrix::zeros(posture.freedoms(), wheels.len());
+        let mut matrix = DMatrix::zeros(posture.freedoms(), posture.wheels.len());
         let mut side = DVector::zeros(posture.freedoms());
-        side[0] = weight.dot(&z);
+        side[0] = weight.dot(&posture.axes()[2]);
         let still = WheelForces::default();
-        for (column, (wheel, mount)) in wheels.iter().zip(rover.mounts()).enumerate() {
+        let each = posture.wheels.iter().zip(rover.mounts()).zip(ways(rover, posture));
+        for (column, ((wheel, mount), ways)) in each.enumerate() {
             let forces = forces.get(column).unwrap_or(&still);
             let (force, moment) = self.along(wheel, mount.shearing_radius(), forces);
-            let twists = posture.twists(wheel, [z, x, y], centre);
-            for (row, (twist, carried)) in twists.zip(&carried).enumerate() {
-                let way = twist.linear - carried;
-                matrix[(row, column)] = wheel.normal.dot(&way);
-                side[row] -= force.dot(&way) + moment.dot(&twist.angular);
+            for (row, way) in ways.iter().enumerate() {
+                matrix[(row, column)] = wheel.normal.dot(&way.linear);
+                side[row] -= way.work_of(&force, &moment);
             }
         }
         (matrix, side)
@@ -172,6 +187,66 @@ impl Balance {
     }
 }
 
+/// How each wheel moves against the common centre of mass with each freedom.
+fn ways(rover: &Rover, posture: &Posture) -> Vec<Vec<Twist>> {
+    let centre = centre_of_mass(rover, posture);
+    let [x, y, z] = posture.axes();
+    let twists = |wheel| posture.twists(wheel, [z, x, y], centre);
+    // Links: what all wheels' share of the acceleration and the weight takes of each force.
+    let mut carried = vec![Vec3::zeros(); posture.freedoms()];
+    for (wheel, mount) in posture.wheels.iter().zip(rover.mounts()) {
+        let share = mount.unit.mass / rover.mass();
+        for (sum, twist) in carried.iter_mut().zip(twists(wheel)).skip(OF_BODY) {
+            *sum += share * twist.linear;
+        }
+    }
+    let against = |(twist, carried): (Twist, &Vec3)| Twist {
+        linear: twist.linear - carried,
+        angular: twist.angular,
+    };
+    posture.wheels.iter().map(|wheel| twists(wheel).zip(&carried).map(against).collect()).collect()
+}
+
+/// How loads follow from forces while a rover stands as it does.
+pub(super) struct Transfer {
+    /// Of wheels that only stand [N].
+    of_weight: DVector<f64>,
+    /// For each wheel, what one of each of its [`parts`] adds to all loads.
+    by_forces: Vec<DMatrix<f64>>,
+}
+
+impl Transfer {
+    /// Loads of least norm of wheels that only stand [N].
+    pub(super) fn of_weight(&self) -> &DVector<f64> {
+        &self.of_weight
+    }
+
+    /// What a wheel's forces add to all loads [N].
+    pub(super) fn of(&self, wheel: usize, forces: &WheelForces) -> DVector<f64> {
+        &self.by_forces[wheel] * SVector::from(parts(forces))
+    }
+}
+
+/// The forces of a wheel that move loads [N, N·m].
+fn parts(forces: &WheelForces) -> [f64; 5] {
+    let WheelForces {
+        drawbar_pull, side_force, torque, overturning_moment, aligning_moment, ..
+    } = *forces;
+    [drawbar_pull, side_force, torque, overturning_moment, aligning_moment]
+}
+
+/// One of each of them.
+fn units() -> [WheelForces; 5] {
+    let none = WheelForces::default();
+    [
+        WheelForces { drawbar_pull: 1.0, ..none },
+        WheelForces { side_force: 1.0, ..none },
+        WheelForces { torque: 1.0, ..none },
+        WheelForces { overturning_moment: 1.0, ..none },
+        WheelForces { aligning_moment: 1.0, ..none },
+    ]
+}
+
 /// The common centre of mass of body and wheels, seen from the body's, in the ground's coordinates
 /// [m].
 #[must_use]
@@ -189,4 +264,16 @@ fn least_norm(matrix: &DMatrix<f64>, side: &DVector<f64>) -> Option<Vec<f64>> {
         &transposed * (matrix * &transposed).lu().solve(side)?
     };
     shortest.iter().all(|load| load.is_finite()).then(|| shortest.iter().copied().collect())
+}
+
+/// The matrix that makes of balances the shortest vector that has them; none where some have none.
+fn right_inverse(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let inverse = if matrix.is_square() {
+        matrix.clone().try_inverse()?
+    } else {
+        let transposed = matrix.transpose();
+        let square = (matrix * &transposed).try_inverse()?;
+        transposed * square
+    };
+    inverse.iter().all(|part| part.is_finite()).then_some(inverse)
 }
