@@ -17,8 +17,10 @@ import grouser as gr
 from grouser.gym import LevelTraverseVectorEnv
 
 ROUNDS = 5
-#: Rovers of the vector environment, and how long an action lasts [s].
-ENVIRONMENTS, PERIOD_S = 64, 0.02
+#: Length of a step of a run [s].
+PERIOD_S = 0.02
+#: Rovers of the vector environment, how long an action lasts [s], and how many there are.
+ENVIRONMENTS, ACTION_S, STEPS = 64, 0.5, 20
 
 
 def alone(work: str, *columns: np.ndarray) -> float:
@@ -120,9 +122,10 @@ def main() -> None:
         print(measure(*line), flush=True)
     print()
     print(f"{'Run.step of 20 ms, new speeds at each':<44}{1e6 * step_seconds():8.0f} µs")
-    for simulation in ("dynamic", "quasi-steady"):
-        name = f"{ENVIRONMENTS} environments, {simulation}, {1e3 * PERIOD_S:.0f} ms"
-        print(f"{name:<44}{steps_per_second(simulation):8.0f} steps/s", flush=True)
+    title = f"steps a second of {ENVIRONMENTS} environments, {ACTION_S} s"
+    print(f"\n{title:<44}{'quasi-steady':>14}{'dynamic':>14}")
+    for row in steps_of_environments():
+        print(row, flush=True)
 
     print(f"\n{'call':<58}{'time':>11}")
     print(call("a preset of a soil", lambda: gr.Soil("toyoura")))
@@ -145,21 +148,54 @@ def step_seconds() -> float:
     return min(times)
 
 
-def steps_per_second(simulation: str) -> float:
-    """Steps of a vector environment under actions that change at each step."""
-    settings = {"dt_s": PERIOD_S, "scenario": {"simulation": simulation}}
+def steps_of_environments() -> list[str]:
+    """Lines for a vector environment, and for rovers over hills, by how actions change."""
+    rng = np.random.default_rng(1)
+    shape = (STEPS, ENVIRONMENTS, 2)
+    straight = np.tile([0.6, 0.0], (STEPS, ENVIRONMENTS, 1))
+    nearly = straight + rng.uniform(-0.18, 0.18, shape)
+    rests = straight * (np.arange(STEPS) % 4 < 2)[:, None, None]
+    anyhow = rng.uniform(-1.0, 1.0, shape)
+    actions = {
+        "constant": straight,
+        "drive 0.6 ± 30 %, turn from −0.18 to 0.18": nearly,
+        "a second at 0.6, a second at rest": rests,
+        "any drive and turn from −1 to 1": anyhow,
+        "any, at rest in every fifth step": anyhow * (np.arange(STEPS) % 5 < 4)[:, None, None],
+    }
+    lines = []
+    for name, given in actions.items():
+        both = [steps_per_second(simulation, given) for simulation in ("quasi-steady", "dynamic")]
+        lines.append(f"{name:<44}" + "".join(f"{rate:14,.0f}" for rate in both))
+    hills = [over_hills(simulation, nearly) for simulation in ("quasi-steady", "dynamic")]
+    lines.append(f"{'over hills, within 30 %':<44}" + "".join(f"{rate:14,.0f}" for rate in hills))
+    return lines
+
+
+def steps_per_second(simulation: str, actions: np.ndarray) -> float:
+    """Steps a second of a vector environment under actions, one set for each step."""
+    settings = {"dt_s": ACTION_S, "scenario": {"simulation": simulation}}
     envs = LevelTraverseVectorEnv(ENVIRONMENTS, max_episode_steps=None, **settings)
     envs.reset(seed=1)
-    rng, count = np.random.default_rng(1), 20
-    straight = np.tile([0.6, 0.0], (ENVIRONMENTS, 1))
-    best = 0.0
-    for _ in range(ROUNDS):
-        actions = straight + rng.uniform(-0.05, 0.05, (count, *straight.shape))
-        start = time.perf_counter()
-        for action in actions:
-            envs.step(action)
-        best = max(best, count * ENVIRONMENTS / (time.perf_counter() - start))
-    return best
+    start = time.perf_counter()
+    for action in actions:
+        envs.step(action)
+    return actions.shape[0] * ENVIRONMENTS / (time.perf_counter() - start)
+
+
+def over_hills(simulation: str, actions: np.ndarray) -> float:
+    """The same of rovers on a site with craters, each from a place of its own."""
+    site = gr.Terrain.lunar(size_m=60.0, cell_size_m=0.2, seed=1)
+    starts = np.random.default_rng(2).uniform(-15.0, 15.0, (ENVIRONMENTS, 2))
+    scenarios = [
+        gr.Scenario(simulation=simulation, terrain=site, start_m=list(start)) for start in starts
+    ]
+    batch = gr.RunBatch(scenarios, commands="rim_speed_m_s")
+    sides = np.array([-1.0, 1.0, 1.0, -1.0])
+    start = time.perf_counter()
+    for action in actions:
+        batch.step(0.1 * (action[:, :1] + action[:, 1:] * sides), ACTION_S)
+    return actions.shape[0] * ENVIRONMENTS / (time.perf_counter() - start)
 
 
 main()

@@ -197,13 +197,13 @@ impl Together<'_> {
 
     /// Checks that no wheel but the lifted one would have to be held down.
     fn check(&self) -> Result<(), Unfound> {
-        let held = |(wheel, load): (usize, &f64)| {
-            (Some(wheel) != self.lifted && !(*load > 0.0)).then_some(wheel)
-        };
-        if self.least_loads().iter().any(|load| !(*load > 0.0)) {
+        let stands = |load: &f64| *load > 0.0;
+        if !self.least_loads().iter().all(stands) {
             return Err(Unfound::Unusual);
         }
-        match self.loads.iter().enumerate().find_map(held) {
+        let mut wheels = self.loads.iter().enumerate();
+        let held = wheels.find(|(wheel, load)| Some(*wheel) != self.lifted && !stands(load));
+        match held.map(|(wheel, _)| wheel) {
             Some(wheel) if self.warp.is_some() && self.lifted.is_none() => {
                 Err(Unfound::Lifts(wheel))
             }
