@@ -58,7 +58,8 @@ use wheel_tests::{Cell, Quantity, Trial, WheelTests};
 /// Which rows of a file are wanted.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
-    /// Conditions that a row must meet, all of them.
+    /// Conditions that a row must meet, all of them. `line` stands for the line of the file in which
+    /// a row begins: `line!=17` leaves out one trial.
     pub conditions: Vec<Condition>,
     /// Name of the wheel that was tested, for files with rows of several.
     ///
@@ -174,7 +175,8 @@ pub fn read_from(
             Taken::NotOk(row) => left_out = Some(left_out.map_or(row, LeftOut::and_another)),
         }
     }
-    let rows = of_one_wheel(label, rows, choice)?;
+    let mut rows = of_one_wheel(label, rows, choice)?;
+    let without = header.leave_out_lines(&mut rows);
     if rows.is_empty() {
         return Err(MeasurementError::whole(label, why_there_are_none(choice, left_out)));
     }
@@ -186,6 +188,7 @@ pub fn read_from(
     notes.extend(header.empty_readings(was_read));
     notes.extend(other_wheel(&rows, choice));
     notes.extend(left_out.iter().map(LeftOut::note));
+    notes.extend(without);
     notes.extend(notes::suspicions(&rows));
     // They quote what the file says.
     let notes = notes.iter().map(|note| escape::line(note).into_owned()).collect();

@@ -61,7 +61,8 @@ pub(crate) struct ValidateArgs {
     #[arg(long, value_name = "NAME|FILE", value_parser = NonEmptyStringValueParser::new(), requires = "measured")]
     pub(crate) soil: Option<String>,
     /// Only rows where a column has one of some values, or none of them:
-    /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated.
+    /// `slip_angle_deg=0,15`, `wheel!=smooth`; can be repeated. `line!=17` leaves out the row on
+    /// line 17 of the file.
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
     /// Rank every model, with its own soils, on every data set that comes with the program.
@@ -121,6 +122,7 @@ pub(crate) struct CalibrateArgs {
     #[arg(long, value_name = "KEYS", value_delimiter = ',', value_parser = FitKey::parse, requires = "data")]
     pub(crate) fit: Vec<FitKey>,
     /// Only rows where a column has one of some values, or none of them; can be repeated.
+    /// `line!=17` leaves out the row on line 17 of the file.
     #[arg(long = "where", value_name = "COLUMN=VALUES", value_parser = Condition::parse, requires = "data")]
     pub(crate) conditions: Vec<Condition>,
     /// A file of plate-sinkage curves instead: `plate_width_mm`, `plate_diameter_mm` or

@@ -22,6 +22,10 @@ use grouser_core::units::Vec2;
 /// and the drift of a speed within a trial make a few thousandths, another definition makes more.
 const SLIP_TOLERANCE: f64 = 0.05;
 
+/// What conditions call the line of a file in which a row stands: `line!=17` leaves out one trial. A
+/// file's own column of this name comes first.
+const LINE: &str = "line";
+
 /// Two columns may have the load if they differ by no more than this share [-]. Source: ours; a
 /// settled wheel's normal force is its load to a millionth, a stand's differs by several percent.
 const LOAD_TOLERANCE: f64 = 0.01;
@@ -33,6 +37,8 @@ pub(super) struct Header<'a> {
     /// The known column at each place.
     columns: Vec<Option<&'static Column>>,
     conditions: Vec<(usize, &'a Condition)>,
+    /// Those on the lines in which rows stand.
+    of_lines: Vec<&'a Condition>,
     side_force_opposes: bool,
 }
 
@@ -60,9 +66,11 @@ impl<'a> Header<'a> {
                 return Err(failed(problem).with_hint("remove one of them".to_owned()));
             }
         }
-        let conditions = places(label, &names, conditions)?;
+        let is_of_lines = |it: &&Condition| it.column == LINE && !names.contains(&it.column);
+        let (of_lines, others): (Vec<_>, Vec<_>) = conditions.iter().partition(is_of_lines);
+        let conditions = places(label, &names, others)?;
         let side_force_opposes = names.iter().any(|name| name == OF_OPPOSING_SIDE_FORCES);
-        let header = Self { label, names, columns, conditions, side_force_opposes };
+        let header = Self { label, names, columns, conditions, of_lines, side_force_opposes };
         header.check_complete()?;
         Ok(header)
     }
@@ -162,6 +170,15 @@ impl<'a> Header<'a> {
         notes
     }
 
+    /// Takes away the rows that conditions on lines leave out, and says how many there were.
+    pub(super) fn leave_out_lines(&self, rows: &mut Vec<Row>) -> Option<String> {
+        let all = rows.len();
+        let is_met = |line: u64| self.of_lines.iter().all(|it| it.is_met_by(&line.to_string()));
+        rows.retain(|row| is_met(row.line));
+        let left_out = all - rows.len();
+        (left_out > 0).then(|| format!("without {left_out} of {all} trials, by their lines"))
+    }
+
     /// What becomes of a row.
     pub(super) fn row(&self, record: &StringRecord) -> Result<Taken, MeasurementError> {
         let line = record.position().map_or(0, csv::Position::line);
@@ -185,7 +202,7 @@ impl<'a> Header<'a> {
 pub(super) fn places<'c>(
     label: &str,
     names: &[String],
-    conditions: &'c [Condition],
+    conditions: impl IntoIterator<Item = &'c Condition>,
 ) -> Result<Vec<(usize, &'c Condition)>, MeasurementError> {
     let place_of = |condition: &'c Condition| {
         let place = names.iter().position(|name| *name == condition.column);
@@ -199,7 +216,7 @@ pub(super) fn places<'c>(
             MeasurementError::at(label, 1, problem).with_hint(hint)
         })
     };
-    conditions.iter().map(place_of).collect()
+    conditions.into_iter().map(place_of).collect()
 }
 
 /// Whether a row meets all conditions, each at its place.
