@@ -167,6 +167,7 @@ static PRESETS: &[Preset] = &[
     preset!(Scenario, "scenarios", "moon-10-deg"),
     preset!(Scenario, "scenarios", "too-steep"),
     preset!(Scenario, "scenarios", "into-a-crater"),
+    preset!(Mission, "missions", "blank"),
     preset!(Mission, "missions", "there-and-back"),
     preset!(Mission, "missions", "switchbacks-15-deg"),
     preset!(Mission, "missions", "two-steps-forward"),
