@@ -67,5 +67,5 @@ pub use sheet::{
 pub use shown::Shown;
 pub use slide::Slide;
 pub use step::round_step;
-pub use svg::base64;
+pub use svg::{base64, from_base64};
 pub use title::title_of;

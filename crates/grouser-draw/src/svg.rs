@@ -140,6 +140,27 @@ pub fn base64(bytes: &[u8]) -> String {
     text
 }
 
+/// The bytes that were made [text](base64); nothing if the text was made of none.
+#[must_use]
+pub fn from_base64(text: &str) -> Option<Vec<u8>> {
+    let digit = |letter: u8| match letter {
+        b'A'..=b'Z' => Some(letter - b'A'),
+        b'a'..=b'z' => Some(letter - b'a' + 26),
+        b'0'..=b'9' => Some(letter - b'0' + 52),
+        b'+' => Some(62),
+        b'/' => Some(63),
+        _ => None,
+    };
+    let mut bytes = Vec::with_capacity(text.len() / 4 * 3);
+    for chunk in text.trim_end_matches('=').as_bytes().chunks(4) {
+        let digits = chunk.iter().map(|letter| digit(*letter)).collect::<Option<Vec<u8>>>()?;
+        let bits = digits.iter().fold(0, |bits, digit| bits << 6 | u32::from(*digit));
+        let whole = bits << (6 * (4 - digits.len())) << 8;
+        bytes.extend(&whole.to_be_bytes()[..digits.len() * 6 / 8]);
+    }
+    (base64(&bytes) == text).then_some(bytes)
+}
+
 fn write_text(svg: &mut String, text: &Text, at: Place) {
     let ([x, y], _) = text.base_line(at);
     let scale = text.size / text.face.units();
@@ -217,6 +238,11 @@ mod tests {
         let found =
             ["", "f", "fo", "foo", "foob", "fooba", "foobar"].map(|it| base64(it.as_bytes()));
         assert_eq!(found, ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"]);
+        let back = found.map(|it| from_base64(&it).unwrap());
+        assert_eq!(back.map(|it| it.len()), [0, 1, 2, 3, 4, 5, 6]);
+        for wrong in ["Z", "Zg", "Zg=", "Zh==", "Zm9v=", "Zm 9", "Zg==Zg=="] {
+            assert_eq!(from_base64(wrong), None, "{wrong}");
+        }
     }
 
     /// A hundred by a hundred cells: fewer are shapes.

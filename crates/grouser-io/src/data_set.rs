@@ -72,6 +72,8 @@ pub struct DataSetCase {
     pub conditions: Vec<Condition>,
     /// What was tested.
     pub tested: Tested,
+    /// The name that it was found by.
+    pub tested_name: String,
     /// The soils, each with the name it was found by.
     pub soils: Vec<(String, LoadedSoil)>,
     /// The names of those of the soils that were fitted to these rows.
@@ -224,6 +226,7 @@ impl CaseSection {
             name: self.name.clone(),
             conditions: self.conditions.iter().map(condition).collect::<Result<_, _>>()?,
             tested: tested()?,
+            tested_name: self.wheel.clone().or_else(|| self.rover.clone()).unwrap_or_default(),
             soils: self.soils.iter().enumerate().map(soil).collect::<Result<_, DocumentError>>()?,
             fitted: self.fitted.iter().map(fitted).collect::<Result<_, _>>()?,
         })

@@ -5,6 +5,7 @@ use super::given_file::GivenFile;
 use super::priors::Assumed;
 use super::tree::Companion;
 use super::uncertain_soil::UncertainSoil;
+use grouser_core::terrain::ElevationModel;
 
 /// A document that was read: its keys, and the domain's value.
 ///
@@ -104,6 +105,21 @@ impl<V> Loaded<V> {
         let companions = self.companions.iter().flat_map(|companion| companion.content.bytes());
         fnv_1a(toml.bytes().chain(companions))
     }
+}
+
+/// A number by which a resolved document, with its companions and its map of heights, is known again
+/// as by [`Loaded::fingerprint`]: states of its runs have it.
+///
+/// * `map`: the heights that a scenario or mission names
+#[must_use]
+pub fn mark_of(document: &Document, companions: &[Companion], map: Option<&ElevationModel>) -> u64 {
+    let texts = companions.iter().flat_map(|it| [it.name.as_bytes(), it.content.as_bytes()]);
+    let heights = map.into_iter().flat_map(|model| {
+        let above = model.heights_above_base().flat_map(f32::to_le_bytes);
+        model.base().to_le_bytes().into_iter().chain(above)
+    });
+    let toml = document.to_toml();
+    fnv_1a(toml.bytes().chain(texts.flatten().copied()).chain(heights))
 }
 
 /// FNV-1a with 64 bits (Fowler, Noll and Vo): tells bytes apart that differ by accident, not by

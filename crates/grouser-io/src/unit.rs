@@ -220,6 +220,29 @@ pub const UNITS: [(&str, Unit); 37] = [
 /// Ends of the names of quantiles: `yaw_deg_p2_5` is in degrees.
 pub const QUANTILES: [&str; 3] = ["_p2_5", "_p50", "_p97_5"];
 
+/// The name of a column in words, with its unit.
+///
+/// ```
+/// let labels = ["time_s", "yaw_deg_p97_5", "probability_completed"].map(grouser_io::label_of);
+/// assert_eq!(labels, ["time [s]", "yaw, 97.5 % [°]", "probability completed"]);
+/// ```
+#[must_use]
+pub fn label_of(name: &str) -> String {
+    let quantile = QUANTILES.iter().zip(["2.5 %", "50 %", "97.5 %"]);
+    let found = quantile.into_iter().find_map(|(end, words)| {
+        if name == end.trim_start_matches('_') {
+            return Some((words, ""));
+        }
+        Some((name.strip_suffix(end)?, words))
+    });
+    let (name, words) = found.unwrap_or((name, ""));
+    let unit = UNITS.iter().find_map(|(end, unit)| Some((name.strip_suffix(end)?, unit.symbol)));
+    let (stem, symbol) = unit.unwrap_or((name, ""));
+    let comma = if words.is_empty() { "" } else { ", " };
+    let label = format!("{}{comma}{words}", stem.replace('_', " "));
+    if symbol.is_empty() { label } else { format!("{label} [{symbol}]") }
+}
+
 /// The unit that a key or a column ends with; none for a number without.
 #[must_use]
 pub fn unit_of(name: &str) -> Option<Unit> {

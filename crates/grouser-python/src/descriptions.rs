@@ -7,7 +7,7 @@ use grouser::document::LoadedDesign;
 use grouser::document::varied::{Key, NoNumber, Numbers as _, Varied};
 use grouser::document::{
     self, Beside, Companion, DocumentError, HeldMap, Kind, LoadedMission, LoadedRover,
-    LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Problem, Source, fnv_1a, map_of,
+    LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Problem, Source, map_of, mark_of,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -131,16 +131,8 @@ impl Document {
     /// A number by which the document, with the files that it names, is told from others.
     pub(crate) fn mark(&self) -> u64 {
         *self.mark.get_or_init(|| {
-            let files = self.companions().iter();
-            let texts = files.flat_map(|it| [it.name.as_bytes(), it.content.as_bytes()]);
             let map = self.map();
-            let model = map.iter().map(|map| &map.model);
-            let heights = model.flat_map(|model| {
-                let above = model.heights_above_base().flat_map(f32::to_le_bytes);
-                model.base().to_le_bytes().into_iter().chain(above)
-            });
-            let toml = self.resolved().to_toml();
-            fnv_1a(toml.bytes().chain(texts.flatten().copied()).chain(heights))
+            mark_of(self.resolved(), self.companions(), map.as_ref().map(|map| &*map.model))
         })
     }
 

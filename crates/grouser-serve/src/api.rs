@@ -6,8 +6,10 @@ mod command;
 mod design;
 mod document;
 mod drawing;
+mod drive_step;
 mod fields;
 mod fit;
+mod fit_task;
 mod ground;
 mod heading;
 mod heading_map;
@@ -31,7 +33,7 @@ pub(crate) type List = fn(&Console) -> String;
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.
-pub(crate) static QUESTIONS: [(&str, Read); 19] = [
+pub(crate) static QUESTIONS: [(&str, Read); 21] = [
     ("heading", heading::read),
     ("heading-map", heading_map::read),
     ("wheel-test", wheel_test::read),
@@ -39,12 +41,14 @@ pub(crate) static QUESTIONS: [(&str, Read); 19] = [
     ("map-place", place::read),
     ("route", route::read),
     ("traverse", traverse::read),
+    ("drive-step", drive_step::read),
     ("design", design::read),
     ("design-task", design::task),
     ("campaign", campaign::read),
     ("campaign-task", campaign::task),
     ("campaign-summary", campaign::summary),
     ("fit", fit::read),
+    ("fit-task", fit_task::task),
     ("replay", replay::read),
     ("mission", mission::read),
     ("mission-task", mission::task),
@@ -54,9 +58,10 @@ pub(crate) static QUESTIONS: [(&str, Read); 19] = [
 ];
 
 /// What there is to choose from, by their paths below `/api/`.
-pub(crate) static LISTS: [(&str, List); 4] = [
+pub(crate) static LISTS: [(&str, List); 5] = [
     ("presets", lists::presets),
     ("documents", lists::documents),
     ("files", lists::files),
     ("campaigns", campaign::list),
+    ("data-sets", fit_task::data_sets),
 ];

@@ -222,10 +222,11 @@ impl Run {
     ///
     /// The models know no shear that builds up with the way: a wheel that stands, or moves against
     /// its rim, has a slip ratio of 1 or more at once, and near the limit of its thrust digs there
-    /// for ever, where a real one passes through the slip at which it pulls most.
+    /// for ever, where a real one passes through the slip at which it pulls most. Missions do so after
+    /// each look of their controller, and so may whoever leads a run by [`step`](Self::step).
     ///
     /// * `before`: speeds of the rims before [m/s]
-    pub(crate) fn start_rolling(&mut self, before: &[f64]) {
+    pub fn start_rolling(&mut self, before: &[f64]) {
         let mounts = self.scenario.rover.mounts();
         let State { set_speeds, point, .. } = &self.state;
         let [old, new] = [before, set_speeds].map(|rims| rolling_velocity(mounts, rims));

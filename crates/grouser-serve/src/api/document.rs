@@ -38,7 +38,7 @@ pub(super) fn scenario(console: &Console, body: &[u8]) -> Result<Question, Refus
 /// The soil and the wheel of a question about a test stand.
 pub(super) fn stand(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
     let fields = AskedFields::of(body)?;
-    let parts = StandParts::of(&fields)?;
+    let parts = StandParts::of(&fields, &console.folder)?;
     fields.finish()?;
     let stands = parts.stands(&console.folder, false)?;
     Ok(Question::new(move |_, send| {

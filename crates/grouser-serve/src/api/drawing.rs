@@ -23,7 +23,7 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let load = fields.number("load_n", &LOADS)?.unwrap_or(17.0);
     let slip_ratio = fields.number("slip_ratio", &SLIPS)?.unwrap_or(0.2);
     let slip_angle = fields.number("slip_angle_deg", &SLIP_ANGLE_DEG)?.unwrap_or(0.0);
-    let parts = StandParts::of(&fields)?;
+    let parts = StandParts::of(&fields, &console.folder)?;
     fields.finish()?;
     let stand = parts.stands(&console.folder, false)?.into_iter().next();
     let Some(stand) = stand else {

@@ -22,7 +22,7 @@ use serde_json::{Value, json};
 use super::command::CommandLine;
 use super::fields::AskedFields;
 use super::parts::{Stand, StandParts};
-use super::staged::refused;
+use super::staged::{labels_of, refused};
 use crate::asked::{Question, Send};
 use crate::console::Console;
 use crate::progress::Progress;
@@ -53,7 +53,7 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let one = |all: Option<Vec<u64>>| all.and_then(|all| all.first().copied());
     let steps = one(fields.counts("steps", &(STEPS.start..=STEPS.end - 1))?);
     let seed = one(fields.counts("seed", &(0..=u64::MAX))?);
-    let parts = StandParts::of(&fields)?;
+    let parts = StandParts::of(&fields, &console.folder)?;
     fields.finish()?;
     let fit = parsed("fit", &keys, FitKey::parse)?;
     let conditions = parsed("where", &given, Condition::parse)?;
@@ -111,13 +111,13 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
 }
 
 /// The bytes of a file of measurements in the folder.
-fn file(console: &Console, name: &str, limits: Limits) -> Result<Vec<u8>, Refusal> {
+pub(super) fn file(console: &Console, name: &str, limits: Limits) -> Result<Vec<u8>, Refusal> {
     let folder = &console.folder;
     let bytes = folder.find_map(name).and_then(|path| folder.read(&path, limits.bytes()));
     bytes.map_err(|problem| Refusal::of_key("data", problem.to_string()))
 }
 
-fn parsed<T>(
+pub(super) fn parsed<T>(
     key: &str,
     words: &[String],
     parse: fn(&str) -> Result<T, String>,
@@ -198,6 +198,7 @@ impl FitAsked {
             "documents": documents,
             "tables": [{
                 "caption": "What is fitted, with its 95 % interval",
+                "labels": labels_of(&columns),
                 "columns": columns,
                 "rows": solved.records,
             }],

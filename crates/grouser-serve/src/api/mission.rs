@@ -4,11 +4,14 @@
 use std::cell::RefCell;
 
 use grouser::answers::{Answer, AnswerError, AnswerOptions, Member, Sampling};
+use grouser::document::columns::Quantity;
 use grouser::document::columns::mission::{MissionObject, legs_brief};
 use grouser::document::columns::run::RunObject;
 use grouser::document::reading::capitalised;
-use grouser::document::{self, Kind, LoadedMission, given_to_drives, json};
-use grouser::mission::{Mission, MissionReport, MissionRun};
+use grouser::document::{
+    self, Kind, LoadedMission, given_to_drives, json, label_of, limited_quantity,
+};
+use grouser::mission::{Limited, Mission, MissionReport, MissionRun};
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser_draw::{Sheet, path_of, title_of};
 use hyper::StatusCode;
@@ -67,9 +70,25 @@ pub(super) fn task(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
             "documents": { "mission.toml": mission.to_toml() },
             "keys": super::document::study_keys(Kind::Mission, document),
             "legs": document.get("leg"),
+            "limits": Limited::ALL.map(limit),
         })));
         Ok(())
     }))
+}
+
+/// A number that may be limited, and the key of its limit in every leg.
+fn limit(limited: Limited) -> Value {
+    let Quantity { name, unit } = limited_quantity(limited);
+    let path = format!("stop.{name}.above");
+    let range = document::range(Kind::Mission, &path);
+    json!({
+        "key": format!("mission.{path}"),
+        "label": label_of(name),
+        "meaning": limited.row().meaning,
+        "minimum": range.as_ref().map(|it| *it.start()),
+        "maximum": range.as_ref().map(|it| *it.end()),
+        "unit": unit.symbol,
+    })
 }
 
 /// Drives a mission while somebody waits for it.

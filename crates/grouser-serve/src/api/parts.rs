@@ -243,8 +243,21 @@ enum Use<'r> {
 
 impl RunSettings {
     pub(super) fn of(fields: &AskedFields) -> Result<Self, Refusal> {
+        Self::of_keys(fields, &OF_RUNS)
+    }
+
+    /// Those that a run starts with, where others lead it.
+    pub(super) fn of_start(fields: &AskedFields) -> Result<Self, Refusal> {
+        let [slope, yaw, ..] = OF_RUNS;
+        Self::of_keys(fields, &[slope, yaw])
+    }
+
+    fn of_keys(
+        fields: &AskedFields,
+        keys: &[(&'static str, &'static str)],
+    ) -> Result<Self, Refusal> {
         let mut numbers = Vec::new();
-        for (key, of_scenario) in OF_RUNS {
+        for &(key, of_scenario) in keys {
             let given = fields.numbers(key, &(f64::MIN..=f64::MAX), &[])?;
             // Wheels may have a speed each.
             if given.len() > 1 && key != "rim_speed_m_s" {
@@ -402,11 +415,17 @@ impl ScenarioParts {
 }
 
 impl StandParts {
-    /// Those of a question; without a soil or a wheel the program's usual ones.
-    pub(super) fn of(fields: &AskedFields) -> Result<Self, Refusal> {
+    /// Those of a question; without a soil the program's usual one, without a wheel that of the
+    /// question's rover, or the usual one.
+    pub(super) fn of(fields: &AskedFields, folder: &ServedFolder) -> Result<Self, Refusal> {
+        let wheel = match (fields.text("wheel")?, fields.text("rover")?) {
+            (Some(wheel), _) => wheel,
+            (None, Some(rover)) => wheel_of(folder, &rover)?,
+            (None, None) => document::DEFAULT_ROVER.to_owned(),
+        };
         Ok(Self {
             soil: fields.text("soil")?.unwrap_or_else(|| document::DEFAULT_SOIL.to_owned()),
-            wheel: fields.text("wheel")?.unwrap_or_else(|| document::DEFAULT_ROVER.to_owned()),
+            wheel,
             settings: CommonSettings::of(fields)?,
         })
     }
@@ -477,6 +496,25 @@ fn set_of(fields: &AskedFields) -> Result<Vec<(String, String)>, Refusal> {
         Ok((key, toml))
     });
     each.collect()
+}
+
+/// The wheel of a rover, by the name of its preset: commands take a wheel by a name.
+fn wheel_of(folder: &ServedFolder, name: &str) -> Result<String, Refusal> {
+    let refused = |message: String| Refusal::of_key("rover", message);
+    let source = find("rover", folder, Kind::Rover, name)?;
+    let rover = document::read_rover(&source, &Overrides::none());
+    let rover = rover.map_err(|error| refused(error.to_string()))?;
+    let own = rover.value.mounts().first().map(|mount| mount.unit.wheel);
+    let is_own = |preset: &&'static document::Preset| {
+        let wheel = document::read_wheel(&Source::Preset(preset), &Overrides::none());
+        wheel.is_ok_and(|wheel| Some(wheel.value) == own)
+    };
+    let title = rover.document.name_of("wheel_unit.wheel");
+    let mut known = document::presets(Kind::Wheel).filter(|it| it.record().title == title);
+    known.find(is_own).map(|it| it.name.to_owned()).ok_or_else(|| {
+        refused(format!("{title}, the wheel of this rover, is no preset"))
+            .with_hint("name a wheel by `wheel`")
+    })
 }
 
 /// A document that a question names.

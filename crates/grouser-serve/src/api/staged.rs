@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use grouser::answers::{Answer, AnswerError, AnswerOptions, Displayed, PageBlock, Sampling};
 use grouser::contact::Model;
-use grouser::document::json;
+use grouser::document::{json, label_of};
 use grouser::simulation::{Scenario, Trajectory};
 use grouser_draw::chart::Drawable as _;
 use grouser_draw::{Animation, Sheet, Slide, base64};
@@ -278,7 +278,8 @@ fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
             let (names, all): (Vec<&str>, Vec<usize>) =
                 (columns.iter().map(|it| &**it).collect(), (0..table.rows()).collect());
             let rows = table.select(&names, &all);
-            Some(json!({ "caption": caption, "columns": names, "rows": rows }))
+            let labels = labels_of(&names);
+            Some(json!({ "caption": caption, "columns": names, "labels": labels, "rows": rows }))
         }
         _ => None,
     });
@@ -291,6 +292,11 @@ fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
         "figures": figures.collect::<Vec<_>>(),
         "tables": tables.collect::<Vec<_>>(),
     })
+}
+
+/// Columns in words, with their units.
+pub(super) fn labels_of(names: &[impl AsRef<str>]) -> Vec<String> {
+    names.iter().map(|name| label_of(name.as_ref())).collect()
 }
 
 /// Why there is no answer.

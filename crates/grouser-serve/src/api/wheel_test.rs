@@ -25,7 +25,7 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let loads = fields.numbers("load_n", &LOAD_N, &LOADS)?;
     let slip_ratios = fields.numbers("slip_ratio", &SLIP_RATIO, &SLIPS)?;
     let slip_angles_deg = fields.numbers("slip_angle_deg", &SLIP_ANGLE_DEG, &ANGLES)?;
-    let parts = StandParts::of(&fields)?;
+    let parts = StandParts::of(&fields, &console.folder)?;
     let stages = Stages::of(&fields, None)?;
     let gradients = fields.texts("gradients")?;
     fields.finish()?;

@@ -179,3 +179,17 @@ fn every_answer_with_a_picture_has_a_slide() {
         assert!(slide.contains(&format!(">{command}</text>")), "{question}: {command}");
     }
 }
+
+#[test]
+fn a_wheel_is_that_of_the_questions_rover() {
+    let server = Served::usual();
+    let asked = json!({"rover": "viper", "soil": "toyoura", "slip_ratio": 0.2, "shown": true});
+    let shown = server.post("wheel-test", &asked).lines().remove(1);
+    let command = shown["command"].as_str().unwrap();
+    assert!(command.contains("--wheel viper-engineering"), "{command}");
+    let stand = server.post("stand", &json!({"rover": "rashid"})).lines().remove(0);
+    assert_eq!(stand["names"]["wheel"], "Rashid-1 wheel");
+    // One that is named comes first.
+    let stand = server.post("stand", &json!({"rover": "rashid", "wheel": "lrv"})).lines().remove(0);
+    assert_eq!(stand["names"]["wheel"], "Lunar Roving Vehicle wheel");
+}

@@ -56,3 +56,52 @@ fn a_soil_is_fitted_to_the_wheel_tests_of_the_folder() {
         assert_eq!(reply.lines()[0]["key"], key, "{wrong}: {reply:?}");
     }
 }
+
+#[test]
+fn a_fit_goes_without_some_trials_by_their_lines() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("tests.csv"), TESTS).unwrap();
+    let settings = Settings { folder: Some(folder.path().to_owned()), ..Settings::default() };
+    let server = Served::start(&settings);
+    let asked = json!({"data": "tests.csv", "wheel": "hakuto", "where": "slip_angle_deg=0"});
+    let task = server.post("fit-task", &asked).lines().remove(0);
+    let trials = task["rows"].as_array().unwrap();
+    let line = trials[1]["line"].as_u64().unwrap();
+    assert!(trials[1]["drawbar_pull_n"].is_number() && trials[1]["load_n"].is_number());
+    let without = format!("line!={line}");
+    let asked = json!({
+        "data": "tests.csv", "wheel": "hakuto", "soil": "toyoura", "point_fit": true,
+        "where": ["slip_angle_deg=0", without], "fit": ["soil.shear.longitudinal_m"],
+    });
+    let shown = server.post("fit", &asked).lines().pop().unwrap();
+    let words = format!("without 1 of {} trials, by their lines", trials.len());
+    assert!(shown["sentences"].as_array().unwrap().contains(&json!(words)), "{shown}");
+    assert!(shown["command"].as_str().unwrap().contains(&format!("--where 'line!={line}'")));
+}
+
+#[test]
+fn data_sets_say_what_they_lack_and_with_what_they_were_measured() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("tests.csv"), TESTS).unwrap();
+    fs::write(folder.path().join("log.csv"), "time_s,x_m\n0,1\n").unwrap();
+    let set = "schema = \"data-set/1\"\nname = \"ours\"\nsource = \"ours\"\nfile = \"tests.csv\"\n\
+               [[case]]\nname = \"all\"\nwheel = \"hakuto\"\nsoils = [\"toyoura\"]\n";
+    fs::write(folder.path().join("ours.toml"), set).unwrap();
+    let settings = Settings { folder: Some(folder.path().to_owned()), ..Settings::default() };
+    let server = Served::start(&settings);
+    let list = server.ask("GET", "/api/data-sets", "", "").lines().remove(0);
+    let of = |name: &str| {
+        let rows = list["rows"].as_array().unwrap();
+        rows.iter().find(|row| row["name"] == name).unwrap().clone()
+    };
+    let part = json!({"name": "all", "wheel": "hakuto", "soils": ["toyoura"], "where": []});
+    assert_eq!((&of("tests.csv")["lacks"], &of("tests.csv")["parts"][0]), (&json!(null), &part));
+    assert!(of("log.csv")["lacks"].is_string());
+    let smooth = &of("cmu-single-wheel")["parts"][0];
+    assert_eq!(smooth["wheel"], "cmu-smooth");
+    assert_eq!(of("cmu-single-wheel")["lacks"], json!(null));
+    for name in ["hakuto-slope", "viper-slip-slope"] {
+        let lacks = of(name)["lacks"].as_str().unwrap().to_owned();
+        assert!(lacks.contains("the load is missing"), "{name}: {lacks}");
+    }
+}

@@ -4,6 +4,7 @@ mod access;
 mod answers;
 mod campaign;
 mod design;
+mod drive_step;
 mod fit;
 mod folder;
 mod limits;

@@ -2,6 +2,7 @@
 
 use grouser::document::columns::mission::MissionObject;
 use grouser::document::{self, Kind, Overrides, Source};
+use grouser::mission::Limited;
 use grouser::studies::mission::DrivenMission;
 use serde_json::{Value, json};
 
@@ -43,4 +44,23 @@ fn a_mission_drives_the_legs_that_it_is_given() {
         assert_eq!(reply.status, 422, "{wrong}");
         assert_eq!(reply.lines()[0]["key"], key, "{wrong}: {reply:?}");
     }
+}
+
+#[test]
+fn a_mission_begins_from_blank_and_takes_limits() {
+    let server = Served::usual();
+    let set = json!({"mission.rover": "spirit", "mission.soil": "mars-sand",
+                     "mission.stop.sinkage_over_radius.above": 0.01});
+    let asked = json!({"mission": "blank", "set": set});
+    let task = server.post("mission-task", &asked).lines().remove(0);
+    assert_eq!(task["names"]["soil"], "Mars sand, student code");
+    let limits = task["limits"].as_array().unwrap();
+    assert_eq!(limits.len(), Limited::ALL.len());
+    let roll = limits.iter().find(|it| it["key"] == "mission.stop.roll_deg.above").unwrap();
+    assert_eq!((&roll["label"], &roll["maximum"]), (&json!("roll [°]"), &json!(90.0)));
+    let lines =
+        server.post("mission", &json!({"mission": "blank", "set": set, "shown": true})).lines();
+    assert_eq!(lines[0]["outcome"], "stopped");
+    let command = lines[1]["command"].as_str().unwrap();
+    assert!(command.contains("mission.rover=\"spirit\""), "{command}");
 }

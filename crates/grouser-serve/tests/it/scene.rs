@@ -1,6 +1,7 @@
 //! Runs in three dimensions: the engine's scene comes along where it is asked for, and what shows
 //! it is served.
 
+use grouser_draw::from_base64;
 use serde_json::{Value, json};
 
 use crate::served::Served;
@@ -14,7 +15,7 @@ struct Scene {
 impl Scene {
     /// * `text`: binary glTF in base64
     fn of(text: &Value) -> Self {
-        let bytes = bytes_of(text.as_str().unwrap());
+        let bytes = from_base64(text.as_str().unwrap()).unwrap();
         assert_eq!(bytes[..4], *b"glTF");
         let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
         let description = serde_json::from_slice(&bytes[20..20 + length]).unwrap();
@@ -47,19 +48,6 @@ impl Scene {
             f64::from(f32::from_le_bytes(bytes))
         })
     }
-}
-
-/// Source: RFC 4648, section 4.
-fn bytes_of(text: &str) -> Vec<u8> {
-    let digits = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let value = |digit: u8| Some(digits.iter().zip(0_u32..).find(|(it, _)| **it == digit)?.1);
-    let mut bytes = Vec::new();
-    for four in text.as_bytes().chunks(4) {
-        let there: Vec<u32> = four.iter().filter_map(|digit| value(*digit)).collect();
-        let bits = there.iter().fold(0, |bits, value| bits << 6 | value) << (6 * (4 - there.len()));
-        bytes.extend(&bits.to_be_bytes()[1..there.len()]);
-    }
-    bytes
 }
 
 /// The tolerance is that of single precision at a metre.

@@ -1,0 +1,151 @@
+//! What a fit may be about: `data-sets`, with the wheels and soils that their documents name and what
+//! some of them lack, and `fit-task`, the trials of one of them.
+
+use std::borrow::Cow;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+use grouser::document::columns::{
+    self, DRAWBAR_PULL, LOAD, SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TORQUE,
+};
+use grouser::document::measurements::wheel_tests::{Quantity, Trial};
+use grouser::document::measurements::{self, Choice, Condition, Limits, MeasurementError};
+use grouser::document::{
+    self, DataSetCase, Kind, LoadedDataSet, Overrides, Preset, Source, json, read_data_set,
+};
+use serde_json::{Value, json};
+
+use super::fields::AskedFields;
+use super::fit::{file, parsed};
+use crate::asked::Question;
+use crate::console::Console;
+use crate::refusal::Refusal;
+
+/// What is read of a trial.
+const READINGS: [(columns::Quantity, Quantity); 4] = [
+    (DRAWBAR_PULL, Quantity::DrawbarPull),
+    (SIDE_FORCE, Quantity::SideForce),
+    (SINKAGE, Quantity::Sinkage),
+    (TORQUE, Quantity::Torque),
+];
+/// Bytes of a file that are looked at for what it lacks: its first lines.
+const HEAD: u64 = 64 << 10;
+
+/// The data sets that come with Grouser, and the CSV files of the folder.
+pub(super) fn data_sets(console: &Console) -> String {
+    let documents = documents_of(console);
+    let files = console.folder.list_files().into_iter();
+    let files = files.filter(|it| it.kind == "measurements").map(|it| {
+        let document = documents.iter().find(|(file, _)| *file == it.path);
+        let cases = document.map_or(&[][..], |(_, set)| &set.value.cases);
+        row(&it.path, cases, |conditions| head_lacks(console, &it.path, conditions))
+    });
+    let presets = document::presets(Kind::DataSet).map(|preset| {
+        let set = read_data_set(&Source::Preset(preset), &Overrides::none()).ok();
+        let cases = set.as_ref().map_or(&[][..], |set| &set.value.cases);
+        row(preset.name, cases, |conditions| preset_lacks(preset, conditions))
+    });
+    let rows: Vec<Value> = files.chain(presets).collect();
+    json::line(&json!({ "schema": "grouser.data-sets.v1", "rows": rows })) + "\n"
+}
+
+/// The documents of data sets of the folder, each with the path of its file of measurements.
+fn documents_of(console: &Console) -> Vec<(String, LoadedDataSet)> {
+    let listed = console.folder.list().into_iter().filter(|it| it.kind == Kind::DataSet);
+    let read = |path: String| {
+        let source = console.folder.find(Kind::DataSet, &path).ok()?;
+        let set = read_data_set(&source, &Overrides::none()).ok()?;
+        let file = Path::new(&path).parent()?.join(&set.value.file);
+        Some((file.to_str()?.replace('\\', "/"), set))
+    };
+    listed.filter_map(|it| read(it.path)).collect()
+}
+
+/// A data set with its parts of a wheel, and what a fit lacks in it.
+fn row(
+    name: &str,
+    cases: &[DataSetCase],
+    lacks: impl Fn(Vec<Condition>) -> Option<String>,
+) -> Value {
+    let part = |case: &DataSetCase| {
+        json!({
+            "name": case.name,
+            "wheel": case.tested_name,
+            "soils": case.soils.iter().map(|(name, _)| name).collect::<Vec<_>>(),
+            "where": case.conditions.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        })
+    };
+    let of_wheels = cases.iter().filter(|case| case.tested.wheel().is_some());
+    let conditions = of_wheels.clone().next().map(|case| case.conditions.clone());
+    json!({
+        "name": name,
+        "parts": of_wheels.map(part).collect::<Vec<_>>(),
+        "lacks": lacks(conditions.unwrap_or_default()),
+    })
+}
+
+fn preset_lacks(preset: &Preset, conditions: Vec<Condition>) -> Option<String> {
+    lacks(preset.rows.unwrap_or_default().as_bytes(), conditions)
+}
+
+fn head_lacks(console: &Console, path: &str, conditions: Vec<Condition>) -> Option<String> {
+    let mut head = Vec::new();
+    let path = console.folder.find_map(path).ok()?;
+    let file: File = console.folder.open_file(&path).ok()?;
+    file.take(HEAD).read_to_end(&mut head).ok()?;
+    if head.len() as u64 == HEAD {
+        // The last line may be a part of one.
+        let end = head.iter().rposition(|byte| *byte == b'\n').unwrap_or(0);
+        head.truncate(end);
+    }
+    lacks(&head, conditions)
+}
+
+/// What rows lack to be fitted; several wheels are a choice, and no lack.
+fn lacks(rows: &[u8], conditions: Vec<Condition>) -> Option<String> {
+    let choice = Choice { conditions, ..Choice::default() };
+    let error = measurements::read_from("", rows, &choice).err()?;
+    (!error.is_of_several_wheels()).then(|| error.problem().to_string())
+}
+
+/// The trials of a data set, before some of them are left out.
+pub(super) fn task(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
+    let fields = AskedFields::of(body)?;
+    let data = fields.text("data")?.unwrap_or_default();
+    let wheel = fields.text("wheel")?;
+    let given = fields.texts("where")?;
+    fields.finish()?;
+    let conditions = parsed("where", &given, Condition::parse)?;
+    let choice = Choice { conditions, wheel, limits: Limits::default() };
+    let of_data = |error: MeasurementError| Refusal::of_key("data", error.to_string());
+    let bytes = match measurements::Source::preset(&data) {
+        Some(rows) => Cow::Owned(rows.bytes(choice.limits).map_err(of_data)?.into_owned()),
+        None => Cow::<[u8]>::Owned(file(console, &data, choice.limits)?),
+    };
+    let measured = measurements::read_from(&data, &*bytes, &choice).map_err(of_data)?;
+    Ok(Question::new(move |_, send| {
+        let trials = measured.tests.trials.iter().zip(&measured.lines);
+        send(json::line(&json!({
+            "schema": "grouser.fit-task.v1",
+            "rows": trials.map(trial_row).collect::<Vec<_>>(),
+            "notes": measured.notes,
+        })));
+        Ok(())
+    }))
+}
+
+/// A trial with the line of its file.
+fn trial_row((trial, line): (&Trial, &u64)) -> Value {
+    let mut row = json!({
+        "line": line,
+        SLIP_RATIO.name: trial.slip.ratio,
+        SLIP_ANGLE.name: SLIP_ANGLE.unit.from_si(trial.slip.angle),
+        LOAD.name: trial.load,
+    });
+    for (column, quantity) in READINGS {
+        let reading = trial.readings[quantity];
+        row[column.name] = json!(reading.map(|reading| column.unit.from_si(reading.value)));
+    }
+    row
+}
