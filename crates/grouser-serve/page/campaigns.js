@@ -102,7 +102,7 @@ export class CampaignAnswer {
     this.words = line.sentences?.[0] ?? "";
     this.body.replaceChildren(
       element("p", { class: "found", id: "found" }, [this.words]),
-      ...(line.tables ?? []).map(({ caption, columns, rows }) => tableOf(caption, columns, rows)),
+      ...(line.tables ?? []).map(tableOf),
       element("div", { class: "figures" }, picturesOf(line.figures ?? [])),
       exportOf(line, undefined),
     );

@@ -13,6 +13,32 @@ export function about({ design, set }) {
   return { design, set: setOf({ set }, ["design"]) };
 }
 
+/** @typedef {{name: string, meaning: string}} Measure */
+
+/**
+ * A measure in a few words.
+ * @param {Measure} measure
+ */
+export function wordsOf({ meaning }) {
+  return meaning.split(/[,;]/)[0] ?? meaning;
+}
+
+/** @param {string} text */
+const lower = (text) => text.charAt(0).toLowerCase() + text.slice(1);
+
+/**
+ * Numbers of a design, of which limits are called by what they limit.
+ * @param {import("./api.js").Key[]} keys
+ * @param {Measure[]} measures
+ */
+export function namedKeys(keys, measures) {
+  return keys.map((key) => {
+    const [, name, end] = key.key.match(/\.(\w+)\.at_(least|most)$/) ?? [];
+    const measure = measures.find((it) => it.name === name);
+    return measure ? { ...key, meaning: `At ${end}: ${lower(wordsOf(measure))}` } : key;
+  });
+}
+
 /** The answer about a design. */
 export class DesignAnswer extends StudyAnswer {
   /**

@@ -50,25 +50,26 @@ export function four(value) {
 }
 
 /**
- * A cell of a table: numbers with four digits.
+ * A cell of a table: numbers with four digits, and names in words.
  * @param {any} value
+ * @param {Record<string, string>} [words]
  */
-function cell(value) {
+function cell(value, words) {
+  if (typeof value === "string" && words && Object.hasOwn(words, value)) return words[value] ?? value;
   return typeof value === "number" || value === null || value === undefined ? four(value) : Array.isArray(value) ? value.join(", ") : String(value);
 }
 
 /**
- * Rows as a table, each column with its name.
- * @param {string} caption
- * @param {string[]} columns
- * @param {Record<string, any>[]} rows
+ * Rows as a table, each column with its label, which has its unit, or else with its name.
+ * @param {{caption: string, columns: string[], labels?: string[], words?: Record<string, string>, rows: Record<string, any>[]}} table
  */
-export function tableOf(caption, columns, rows) {
+export function tableOf({ caption, columns, labels, words, rows }) {
   const side = (/** @type {string} */ name) => typeof rows[0]?.[name] === "string" ? { class: "text" } : {};
+  const named = (/** @type {any} */ value) => words && Object.hasOwn(words, value) ? { title: value } : {};
   return element("div", { class: "wide", tabindex: 0, role: "group", "aria-label": caption }, [element("table", {}, [
     element("caption", {}, [caption]),
-    element("thead", {}, [element("tr", {}, columns.map((name) => element("th", { scope: "col", ...side(name) }, [name])))]),
-    element("tbody", {}, rows.map((row) => element("tr", {}, columns.map((name) => element("td", { "data-column": name, ...side(name) }, [cell(row[name])]))))),
+    element("thead", {}, [element("tr", {}, columns.map((name, place) => element("th", { scope: "col", title: name, ...side(name) }, [labels?.[place] ?? name])))]),
+    element("tbody", {}, rows.map((row) => element("tr", {}, columns.map((name) => element("td", { "data-column": name, ...named(row[name]), ...side(name) }, [cell(row[name], words)]))))),
   ])]);
 }
 

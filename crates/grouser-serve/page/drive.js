@@ -174,7 +174,7 @@ export class DriveAnswer {
       }
       const first = mission.alternatives?.[0] ?? mission;
       this.take({ ...line.run, outcome: first.outcome, reason: line.verdict }, line.run.samples[0].z_m === undefined);
-      this.legs.replaceChildren(...(line.tables ?? []).map(({ caption, columns, rows }) => tableOf(caption, columns, rows)));
+      this.legs.replaceChildren(...(line.tables ?? []).map(tableOf));
       this.takeShown(line);
     }, (error) => this.answered(error));
   }

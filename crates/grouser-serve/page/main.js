@@ -3,7 +3,7 @@
 import { Asking, ask, list } from "./api.js";
 import { byId, element, save } from "./dom.js";
 import { CampaignAnswer, about as aboutCampaign } from "./campaigns.js";
-import { DesignAnswer, about as aboutDesign } from "./design.js";
+import { DesignAnswer, about as aboutDesign, namedKeys, wordsOf } from "./design.js";
 import { Dial } from "./dial.js";
 import { DriveAnswer, aboutMission } from "./drive.js";
 import { FitAnswer, choicesOfFit } from "./fit.js";
@@ -173,7 +173,7 @@ function begin() {
   if (session.view === "design") {
     asking.ask("design-task", aboutDesign(session), (line) => {
       sliders = [];
-      place.replaceChildren(element("h2", {}, ["Move"]), ...(line.keys ?? []).map(ofKey), ...trades(line.measures ?? []));
+      place.replaceChildren(element("h2", {}, ["Move"]), ...namedKeys(line.keys ?? [], line.measures ?? []).map(ofKey), ...trades(line.measures ?? []));
       design = new DesignAnswer(ended, begun);
       answer.replaceChildren(design.element);
       moved();
@@ -265,7 +265,7 @@ function courses() {
 
 /**
  * Two measures that a design trades for one another, or none.
- * @param {{name: string, meaning: string}[]} measures
+ * @param {import("./design.js").Measure[]} measures
  */
 function trades(measures) {
   const chosen = session.trade.split(",");
@@ -273,7 +273,7 @@ function trades(measures) {
     const [one, other] = selects.map((it) => /** @type {any} */ (it).value);
     session.trade = one && other && one !== other ? `${one},${other}` : "";
     moved();
-  } }, ["", ...measures.map((it) => it.name)].map((name) => element("option", { value: name, selected: name === (chosen[at] ?? "") }, [name || "nothing"])));
+  } }, [{ name: "", meaning: "nothing" }, ...measures].map((it) => element("option", { value: it.name, selected: it.name === (chosen[at] ?? "") }, [wordsOf(it)])));
   const selects = [select(0), select(1)];
   return [element("div", { class: "slider trade" }, ["Trade ", selects[0] ?? "", " for ", selects[1] ?? ""])];
 }

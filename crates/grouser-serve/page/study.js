@@ -164,7 +164,7 @@ export class StudyAnswer {
         element("p", { class: "found", id: "found" }, [first]),
         element("ul", {}, this.others(others).map((it) => element("li", {}, [it]))),
       ]),
-      ...(line.tables ?? []).map(({ caption, columns, rows }) => tableOf(caption, columns, rows)),
+      ...(line.tables ?? []).map(tableOf),
       element("div", { class: "figures" }, picturesOf(line.figures ?? [])),
       exportOf(line, undefined),
     );

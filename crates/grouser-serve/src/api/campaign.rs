@@ -18,7 +18,7 @@ use super::command::CommandLine;
 use super::document::study_keys;
 use super::fields::AskedFields;
 use super::parts::StudyParts;
-use super::staged::refused;
+use super::staged::{refused, shown_table};
 use crate::asked::{Question, Send};
 use crate::console::Console;
 use crate::progress::Progress;
@@ -181,7 +181,7 @@ fn summarise(
                     .collect()
             })
             .collect();
-        json!({ "caption": table.caption, "columns": table.header, "rows": rows })
+        shown_table(table.caption, &table.header, &json!(rows))
     });
     let drawn = figures(&statistics);
     let slide = drawn.first().map(|it| {

@@ -22,7 +22,7 @@ use serde_json::{Value, json};
 use super::command::CommandLine;
 use super::fields::AskedFields;
 use super::parts::{Stand, StandParts};
-use super::staged::{labels_of, refused};
+use super::staged::{refused, shown_table};
 use crate::asked::{Question, Send};
 use crate::console::Console;
 use crate::progress::Progress;
@@ -196,12 +196,11 @@ impl FitAsked {
             "sentences": sentences,
             "assumptions": stand.soil.assumptions,
             "documents": documents,
-            "tables": [{
-                "caption": "What is fitted, with its 95 % interval",
-                "labels": labels_of(&columns),
-                "columns": columns,
-                "rows": solved.records,
-            }],
+            "tables": [shown_table(
+                "What is fitted, with its 95 % interval",
+                &columns,
+                &json!(solved.records),
+            )],
             "figures": pictures.collect::<Vec<_>>(),
             "slide": slide,
         })));

@@ -277,9 +277,7 @@ fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
         PageBlock::Rows { caption, table, columns } => {
             let (names, all): (Vec<&str>, Vec<usize>) =
                 (columns.iter().map(|it| &**it).collect(), (0..table.rows()).collect());
-            let rows = table.select(&names, &all);
-            let labels = labels_of(&names);
-            Some(json!({ "caption": caption, "columns": names, "labels": labels, "rows": rows }))
+            Some(shown_table(caption, &names, &json!(table.select(&names, &all))))
         }
         _ => None,
     });
@@ -294,9 +292,26 @@ fn shown(answer: &Answer, line: &CommandLine, draws: bool) -> Value {
     })
 }
 
-/// Columns in words, with their units.
-pub(super) fn labels_of(names: &[impl AsRef<str>]) -> Vec<String> {
-    names.iter().map(|name| label_of(name.as_ref())).collect()
+/// A table to be shown: rows with labels for their columns, and for names that stand in cells.
+pub(super) fn shown_table(caption: &str, columns: &[impl AsRef<str>], rows: &Value) -> Value {
+    let columns: Vec<&str> = columns.iter().map(AsRef::as_ref).collect();
+    let cells = rows.as_array().into_iter().flatten().filter_map(Value::as_object);
+    let texts = cells.flat_map(|row| row.values()).filter_map(Value::as_str);
+    let words: BTreeMap<&str, String> =
+        texts.filter(|text| is_name(text)).map(|text| (text, in_words(text))).collect();
+    let labels: Vec<String> = columns.iter().map(|column| in_words(column)).collect();
+    json!({ "caption": caption, "columns": columns, "labels": labels, "words": words, "rows": rows })
+}
+
+/// Whether a text is a column's name or a key, and not in words.
+fn is_name(text: &str) -> bool {
+    let is_of_names = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || "_.".contains(c);
+    text.contains('_') && text.chars().all(is_of_names)
+}
+
+/// A column or a key in words, with its unit; what is in words already as it is.
+fn in_words(name: &str) -> String {
+    if is_name(name) { label_of(&name.replace('.', "_")) } else { name.to_owned() }
 }
 
 /// Why there is no answer.
