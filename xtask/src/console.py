@@ -806,3 +806,9 @@ def main(chromium, axe, program, pictures=None):
 
 if __name__ == "__main__":
     sys.exit(main(*sys.argv[1:]))
+    page, flaws = opened(browser, server, "view=heading&rover=viper")
+    page.get_by_role("button", name="Wheel", exact=True).click()
+    settled(page)
+    command = page.locator("#command").inner_text()
+    looks.claim("the wheel is that of the rover", flaws + ([] if "--wheel viper-engineering" in command else [command]))
+    page.context.close()

@@ -13,7 +13,7 @@ import { MapAnswer, offer, saidOf } from "./map.js";
 import { addLeg, legsTable } from "./legs.js";
 import { fromAddress, toAddress } from "./session.js";
 import { Slider, endsOf } from "./slider.js";
-import { WheelAnswer, about as aboutWheel, labelOf } from "./wheel.js";
+import { WheelAnswer, labelOf } from "./wheel.js";
 
 /** @typedef {import("./session.js").Session} Session */
 
@@ -186,8 +186,8 @@ function begin() {
     beginMission();
     return;
   }
-  const { rover, soil } = session;
-  const question = isWheel ? { soil, wheel: aboutWheel(session).wheel } : { rover, soil };
+  const { rover, soil, wheel: named } = session;
+  const question = isWheel ? { soil, ...(named ? { wheel: named } : { rover }) } : { rover, soil };
   asking.ask(isWheel ? "stand" : "scenario", question, (line) => {
     const keys = line.keys ?? [];
     const of = (/** @type {string} */ kind) => keys.filter((key) => key.key.startsWith(`${kind}.`)).map(ofKey);
@@ -524,6 +524,7 @@ for (const view of Object.keys(VIEWS)) byId(`view-${view}`).addEventListener("cl
 addEventListener("hashchange", () => {
   ({ own: session, pinned } = fromAddress());
   reflect();
+      ...(kind === "wheel" ? [element("option", { value: "" }, ["of the rover"])] : []),
   begin();
 });
 addEventListener("keydown", (event) => {
@@ -537,3 +538,4 @@ answer.addEventListener("click", (/** @type {any} */ event) => {
 
 byId("busy").setAttribute("aria-live", "polite");
 choices().then(begin, complain);
+    if (name === "rover") session.wheel = "";

@@ -6,7 +6,7 @@
  * @property {string} view
  * @property {string} rover
  * @property {string} soil
- * @property {string} wheel
+ * @property {string} wheel empty for the rover's
  * @property {string} model empty for the usual one
  * @property {string} belief `samples` or `nominal`
  * @property {number} slope [°]
@@ -43,7 +43,7 @@
 
 /** @type {Session} */
 const USUAL = {
-  view: "heading", rover: "hakuto", soil: "toyoura-uncertain", wheel: "hakuto", model: "",
+  view: "heading", rover: "hakuto", soil: "toyoura-uncertain", wheel: "", model: "",
   belief: "samples", slope: 10, course: 0, speed: 0.06, load: 17, slip: 0.2, angle: 0,
   yaw: 0, duration: 20, ground: "", dem: "", layer: "verdict", which: "fixed", at: "", from: "", to: "", least: "time", keepout: "",
   design: "design-lighter-wheels", trade: "",

@@ -29,10 +29,10 @@ const CHARTS = /** @type {[string, string, string][]} */ ([
  * @param {Session} session
  */
 export function about(session) {
-  const { soil, wheel, model } = session;
+  const { soil, wheel, rover, model } = session;
   const gravity = session.set[GRAVITY];
   return {
-    soil, wheel, ...(model ? { model } : {}), ...(gravity === undefined ? {} : { gravity_m_s2: gravity }),
+    soil, ...(wheel ? { wheel } : { rover }), ...(model ? { model } : {}), ...(gravity === undefined ? {} : { gravity_m_s2: gravity }),
     set: setOf(session, ["soil", "wheel"]),
   };
 }
@@ -188,10 +188,9 @@ export class WheelAnswer {
  * @param {Key} key
  */
 export function labelOf(key) {
-  const limit = key.key.match(/\.(\w+)\.at_(least|most)$/);
-  if (limit) return `${limit[1]}, at ${limit[2]}`;
   const stop = key.key.match(/\.stop\.(.+)$/);
   if (stop) return `Stop: ${stop[1]?.replace(".", " ")}`;
   const meaning = (key.meaning ?? key.key).split(/[,;[]/)[0]?.trim() ?? key.key;
-  return meaning === "Its growth with the slip angle" || meaning.startsWith("Its ") ? `${key.key.split(".").slice(1).join(" ")}` : meaning.charAt(0).toLowerCase() + meaning.slice(1);
+  if (meaning.startsWith("Its ")) return `${key.key.split(".").slice(1).join(" ").replace(/_per_rad_m$/, "").replace(/_/g, " ")}: ${meaning.slice(4)}`;
+  return meaning.charAt(0).toLowerCase() + meaning.slice(1);
 }
