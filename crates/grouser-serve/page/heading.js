@@ -32,6 +32,19 @@ export function about(session) {
 }
 
 /**
+ * The thresholds of a verdict, as the question had them.
+ * @param {Record<string, any> | undefined} rule the inputs of its answer
+ */
+export function ruleOf(rule) {
+  if (typeof rule?.["go_slip_ratio"] !== "number") return null;
+  const percent = (/** @type {string} */ key) => `${four(100 * rule[key])} %`;
+  return element("p", { class: "setup", "data-column": "rule" }, [
+    `Go: a heading holds with a slip ratio up to ${four(rule["go_slip_ratio"])} in at least ${percent("go_probability")} of the samples, and the drift stays below ${four(rule["go_drift_m_per_m"])} m/m. `,
+    `No-go: in at least ${percent("no_go_probability")} none holds with one up to ${four(rule["no_go_slip_ratio"])}. Between them: caution.`,
+  ]);
+}
+
+/**
  * @param {Session} session
  * @param {number[]} stages
  */
@@ -55,6 +68,8 @@ export class Card {
     this.askingChart = new Asking();
     this.ended = ended;
     this.drawn = drawn;
+    /** The thresholds of its verdict. @type {Record<string, any> | undefined} */
+    this.rule = undefined;
     /** @type {Row | undefined} */
     this.row = undefined;
     /** @type {Row | undefined} */
@@ -84,6 +99,7 @@ export class Card {
     let stage = 0;
     this.asking.ask(isContour ? "heading" : "heading-map", question, (line) => {
       if (line.rows) {
+        this.rule = /** @type {any} */ (line).inputs;
         this.row = line.rows[0];
         if (stage === 0) this.written = this.row;
         stage += 1;
@@ -161,7 +177,7 @@ export class Card {
     const written = this.written ?? row;
     /** @type {[string, string, number][]} */
     const quantities = [
-      ["Heading [°]", "yaw_deg", 1], ["Slip ratio", "slip_ratio", 1], ["Sinkage [mm]", "sinkage_mm", 1],
+      ["Heading offset [°]", "yaw_deg", 1], ["Slip ratio", "slip_ratio", 1], ["Sinkage [mm]", "sinkage_mm", 1],
       ["Energy [J/m]", "energy_j_per_m", 1],
     ];
     const rows = quantities.map(([label, key]) => element("tr", {}, [
@@ -179,6 +195,7 @@ export class Card {
     const changed = Object.entries(about(session).set).map(([key, value]) => `${key} = ${value}`);
     this.body.replaceChildren(
       number, ...(badge ? [badge] : []), element("p", { class: "sentence" }, [this.sentence()]),
+      ...(badge ? [ruleOf(this.rule)].filter((it) => it !== null) : []),
       element("table", {}, [
         element("caption", {}, [`Slope ${session.slope}°, course ${session.course}°, ${count}`]),
         element("thead", {}, [element("tr", {}, head)]), element("tbody", {}, rows),

@@ -3,7 +3,7 @@
 
 import { Asking, ask } from "./api.js";
 import { byId, element, four, save, svg } from "./dom.js";
-import { VERDICTS, about as aboutRover, exportOf } from "./heading.js";
+import { VERDICTS, about as aboutRover, announce, exportOf, ruleOf } from "./heading.js";
 
 /** @typedef {import("./session.js").Session} Session */
 /** @typedef {import("./api.js").Line} Line */
@@ -25,6 +25,15 @@ const TAKES = /** @type {[string, string][]} */ ([
   ["probability_completed", "probability that it is completed"],
   ["most_slip_ratio", "largest slip ratio"], ["most_slope_deg", "steepest slope [°]"],
 ]);
+
+/** The heading of a map is a direction on it; that of a card is an offset from the contour. */
+const LABELS = /** @type {Record<string, string>} */ ({ heading_deg: "nose on the map, from x to the left [°]" });
+
+/**
+ * What a number of a map is called.
+ * @param {{name: string, label: string}} layer
+ */
+const labelOf = ({ name, label }) => LABELS[name] ?? label;
 
 /**
  * A place of the session.
@@ -67,6 +76,8 @@ export class MapAnswer {
     this.asking = new Asking();
     this.askingPlace = new Asking();
     this.askingWay = new Asking();
+    /** Whether a way is computed. */
+    this.isSeeking = false;
     /** @type {any} */
     this.map = undefined;
     /** @type {Line | undefined} */
@@ -157,10 +168,13 @@ export class MapAnswer {
       else this.draw(line);
     }, (error) => {
       this.body.classList.remove("stale");
-      this.ended(error);
-      if (error) return;
+      if (error) {
+        this.ended(error);
+        return;
+      }
       this.askPlace();
       this.askWay();
+      this.ended(undefined);
     });
   }
 
@@ -198,7 +212,7 @@ export class MapAnswer {
         this.keep();
         this.askMap([STAGES[STAGES.length - 1] ?? 200]);
       },
-    }, [label]);
+    }, [labelOf({ name, label })]);
     const focused = document.activeElement?.getAttribute("data-layer");
     const order = [...(line.layers ?? [])].sort((one, other) => Number(other.name === "verdict") - Number(one.name === "verdict"));
     this.layers.replaceChildren(...order.map(layer));
@@ -353,9 +367,12 @@ export class MapAnswer {
       element("h2", {}, ["This place"]),
       ...[found.advice ? badge(found.advice.verdict) : null].filter((it) => it !== null),
       element("p", { class: "sentence", "data-column": "sentence" }, [sentence]),
+      ...(found.advice ? [ruleOf(this.map?.inputs)].filter((it) => it !== null) : []),
       element("table", {}, [
         element("caption", {}, [`x ${four(found.x_m)} m, y ${four(found.y_m)} m`]),
-        element("tbody", {}, [row("height [m]", "z_m", found.z_m), ...rows.map(({ name, label }) => row(label, name, found[name]))]),
+        element("tbody", {}, [row("height [m]", "z_m", found.z_m), ...rows.map((layer) => row(labelOf(layer), layer.name, found[layer.name])),
+          ...(found.advice ? [row("heading offset from the contour, uphill [°]", "yaw_deg", found.advice.yaw_deg)] : []),
+        ]),
       ]),
     );
   }
@@ -364,11 +381,15 @@ export class MapAnswer {
     const { session } = this;
     const [from, to] = [placeOf(session?.from ?? ""), placeOf(session?.to ?? "")];
     if (!session || !from || !to) {
+      this.askingWay.stop();
+      this.isSeeking = false;
       this.wayCard.replaceChildren(element("h2", {}, ["A way"]), element("p", {}, ["Set a start and a goal: the cheapest way, and what it takes."]));
       this.profile.replaceChildren();
       return;
     }
     this.wayCard.classList.add("stale");
+    this.isSeeking = true;
+    announce(saidOf(this));
     const question = {
       ...about(session), from_m: from, to_m: to, minimise: session.least,
       ...(session.keepout ? { keep_out: session.keepout } : {}), shown: true, figures: true,
@@ -380,6 +401,8 @@ export class MapAnswer {
       else this.showWay(found, line);
     }, (error) => {
       this.wayCard.classList.remove("stale");
+      this.isSeeking = false;
+      announce(saidOf(this));
       if (!error) return;
       this.way = [];
       this.showMarks();
@@ -402,7 +425,7 @@ export class MapAnswer {
       element("button", { type: "button", onclick: () => save(name, content) }, [`Save ${name}`]));
     this.wayCard.replaceChildren(
       element("h2", {}, ["The way"]),
-      ...[found.verdict ? badge(found.verdict) : null].filter((it) => it !== null),
+      ...(found.verdict ? [badge(found.verdict), ruleOf(found.inputs)] : []).filter((it) => it !== null),
       ...(shown.sentences ?? []).map((it) => element("p", { class: "sentence" }, [it])),
       element("table", {}, [element("caption", {}, ["By the tables of the steady motion"]), element("tbody", {}, rows)]),
       element("pre", { id: "way-command", tabindex: 0 }, [shown.command ?? ""]),
@@ -416,6 +439,7 @@ export class MapAnswer {
 
 /** What there is, in a few words, for who does not see it. */
 export function saidOf(/** @type {MapAnswer} */ answer) {
+  if (answer.isSeeking) return "computing the way …";
   return answer.map ? "the map is up to date" : "there is no map";
 }
 
