@@ -49,6 +49,41 @@ function round(low, high, most) {
 /** How many patterns of lines there are. */
 export const PATTERNS = 6;
 
+/** Width and height of a chart, and where its curves are. */
+export const SIZE = /** @type {const} */ ([420, 250]);
+const BOX = { left: 52, right: SIZE[0] - 18, top: 26, bottom: SIZE[1] - 38 };
+
+/**
+ * The axes around some points, with what places a number on the chart.
+ * @param {{title: string, x: string, points: [number, number][]}} chart
+ */
+export function scaleOf({ title, x: across, points }) {
+  const box = BOX;
+  const frame = [svg("text", { class: "title", x: box.left, y: 15 }, title)];
+  const spread = (/** @type {number[]} */ numbers) => {
+    let [low, high] = [Math.min(...numbers), Math.max(...numbers)];
+    if (high - low < 1e-9) [low, high] = [low - 0.5, high + 0.5];
+    const margin = 0.05 * (high - low);
+    return [low - margin, high + margin];
+  };
+  const xs = points.map(([x]) => x);
+  const [left, right] = [Math.min(...xs), Math.max(Math.max(...xs), Math.min(...xs) + 1e-9)];
+  const [low = 0, high = 1] = spread(points.map(([, y]) => y));
+  const x = (/** @type {number} */ at) => box.left + ((at - left) / (right - left)) * (box.right - box.left);
+  const y = (/** @type {number} */ at) => box.bottom - ((at - low) / (high - low)) * (box.bottom - box.top);
+  for (const { at, text } of round(low, high, 5)) {
+    frame.push(svg("line", { class: "grid", x1: box.left, x2: box.right, y1: y(at), y2: y(at) }));
+    frame.push(svg("text", { x: box.left - 6, y: y(at) + 4, "text-anchor": "end" }, text));
+  }
+  for (const { at, text } of round(left, right, 7)) {
+    frame.push(svg("line", { class: "tick", x1: x(at), x2: x(at), y1: box.bottom, y2: box.bottom + 4 }));
+    frame.push(svg("text", { x: x(at), y: box.bottom + 17, "text-anchor": "middle" }, text));
+  }
+  frame.push(svg("path", { class: "axis", d: `M${box.left} ${box.top}V${box.bottom}H${box.right}` }));
+  frame.push(svg("text", { x: (box.left + box.right) / 2, y: SIZE[1] - 5, "text-anchor": "middle" }, across));
+  return { frame, x, y, ends: /** @type {[number, number]} */ ([left, right]), box };
+}
+
 /**
  * Draws a chart.
  * @param {Chart} chart
@@ -60,10 +95,10 @@ export function draw(chart) {
 /**
  * The same, and what sets its cursor to a place.
  * @param {Chart} chart
+ * @param {(at: number) => void} [picked] takes the place of a click; a slider does the same by the keyboard
  */
-export function drawOver(chart) {
-  const [width, height] = [420, 250];
-  const box = { left: 52, right: width - 10, top: 26, bottom: height - 38 };
+export function drawOver(chart, picked) {
+  const [width, height] = SIZE;
   const { curves, band = [], point } = chart;
   const all = [
     ...curves.flatMap((curve) => curve.points),
@@ -75,32 +110,13 @@ export function drawOver(chart) {
     class: "chart", viewBox: `0 0 ${width} ${height}`, role: "img",
     "aria-label": `${chart.title}: ${chart.y} over ${chart.x}${said}`,
   });
-  drawn.append(svg("text", { class: "title", x: box.left, y: 15 }, chart.title));
   if (all.length === 0) {
-    drawn.append(svg("text", { x: box.left, y: height / 2 }, "There is nothing to draw."));
+    drawn.append(svg("text", { class: "title", x: BOX.left, y: 15 }, chart.title));
+    drawn.append(svg("text", { x: BOX.left, y: height / 2 }, "There is nothing to draw."));
     return { drawn, cursor: () => {} };
   }
-  const spread = (/** @type {number[]} */ numbers) => {
-    let [low, high] = [Math.min(...numbers), Math.max(...numbers)];
-    if (high - low < 1e-9) [low, high] = [low - 0.5, high + 0.5];
-    const margin = 0.05 * (high - low);
-    return [low - margin, high + margin];
-  };
-  const xs = all.map(([x]) => x);
-  const [left, right] = [Math.min(...xs), Math.max(Math.max(...xs), Math.min(...xs) + 1e-9)];
-  const [low, high] = spread(all.map(([, y]) => y));
-  const x = (/** @type {number} */ at) => box.left + ((at - left) / (right - left)) * (box.right - box.left);
-  const y = (/** @type {number} */ at) => box.bottom - ((at - (low ?? 0)) / ((high ?? 1) - (low ?? 0))) * (box.bottom - box.top);
-  for (const { at, text } of round(low ?? 0, high ?? 1, 5)) {
-    drawn.append(svg("line", { class: "grid", x1: box.left, x2: box.right, y1: y(at), y2: y(at) }));
-    drawn.append(svg("text", { x: box.left - 6, y: y(at) + 4, "text-anchor": "end" }, text));
-  }
-  for (const { at, text } of round(left, right, 7)) {
-    drawn.append(svg("line", { class: "tick", x1: x(at), x2: x(at), y1: box.bottom, y2: box.bottom + 4 }));
-    drawn.append(svg("text", { x: x(at), y: box.bottom + 17, "text-anchor": "middle" }, text));
-  }
-  drawn.append(svg("path", { class: "axis", d: `M${box.left} ${box.top}V${box.bottom}H${box.right}` }));
-  drawn.append(svg("text", { x: (box.left + box.right) / 2, y: height - 5, "text-anchor": "middle" }, chart.x));
+  const { frame, x, y, ends: [left, right], box } = scaleOf({ title: chart.title, x: chart.x, points: all });
+  drawn.append(...frame);
   if (band.length > 1) {
     const there = band.map(([at, lower]) => `${x(at)},${y(lower)}`);
     const back = [...band].reverse().map(([at, , upper]) => `${x(at)},${Number.isFinite(upper) ? y(upper) : box.top}`);
@@ -112,9 +128,18 @@ export function drawOver(chart) {
     drawn.append(svg("polyline", { class: name, points: path }));
   }
   if (point) drawn.append(svg("circle", { class: "point", cx: x(point[0]), cy: y(point[1]), r: 5.5 }));
+  if (picked) {
+    drawn.classList.add("picked");
+    drawn.addEventListener("click", (event) => {
+      const frame = drawn.getBoundingClientRect();
+      const share = ((/** @type {MouseEvent} */ (event).clientX - frame.left) / frame.width * width - box.left) / (box.right - box.left);
+      picked(left + Math.min(1, Math.max(0, share)) * (right - left));
+    });
+  }
   const line = svg("line", { class: "cursor", y1: box.top, y2: box.bottom, visibility: "hidden" });
   drawn.append(line);
   const cursor = (/** @type {number} */ at) => {
+    if (at > right) return;
     for (const end of ["x1", "x2"]) line.setAttribute(end, String(x(at)));
     line.setAttribute("visibility", "visible");
   };

@@ -2,6 +2,7 @@
 
 import { element } from "./dom.js";
 import { StudyAnswer } from "./study.js";
+import { Trials, conditionsOf } from "./trials.js";
 import { about as aboutWheel, labelOf } from "./wheel.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -12,14 +13,32 @@ export class FitAnswer extends StudyAnswer {
   /**
    * @param {(error: Error | undefined) => void} ended
    * @param {() => void} started
+   * @param {() => void} changed when trials are left out or taken back
    */
-  constructor(ended, started) {
+  constructor(ended, started, changed) {
     super({
       start: "Fit the soil",
       hint: "The fit starts when you ask for it: least squares alone take seconds, a posterior takes minutes.",
       none: "no soil is fitted yet",
       failed: "no fit",
     }, ended, started);
+    this.trials = new Trials(changed);
+    this.element.prepend(this.trials.element);
+  }
+
+  /**
+   * @override
+   * @param {Session} session
+   */
+  ask(session) {
+    this.trials.ask(session);
+    super.ask(session);
+  }
+
+  /** @override */
+  stop() {
+    this.trials.stop();
+    super.stop();
   }
 
   /**
@@ -28,9 +47,51 @@ export class FitAnswer extends StudyAnswer {
    * @returns {[string, object]}
    */
   question(session) {
-    const where = session.where.split(";").map((it) => it.trim()).filter(Boolean);
+    const where = [...conditionsOf(session.where), ...(session.without ? [`line!=${session.without}`] : [])];
     return ["fit", { ...aboutWheel(session), data: session.data, fit: list(session.fit), where, point_fit: session.belief === "nominal" }];
   }
+}
+
+/**
+ * A data set of the list: its parts, each of a wheel, and what a fit lacks in it.
+ * @typedef {{name: string, parts: {name: string, wheel: string, soils: string[], where: string[]}[], lacks: string | null}} DataSet
+ */
+
+/**
+ * Data sets as options of a choice; those that cannot be fitted say why.
+ * @param {DataSet[]} all
+ */
+export function optionsOf(all) {
+  return all.map(({ name, lacks }) => element("option", { value: name, disabled: Boolean(lacks), title: lacks ?? "" }, [lacks ? `${name} (${lacks.split(":")[0]})` : name]));
+}
+
+/**
+ * Takes the wheel, the soil and the rows that a part of a data set names.
+ * @param {Session} session
+ * @param {DataSet | undefined} set
+ * @param {number} place of the part
+ */
+export function takePart(session, set, place) {
+  session.without = "";
+  const part = set?.parts[place];
+  session.where = part ? part.where.join("; ") : "";
+  if (!part) return;
+  session.wheel = part.wheel;
+  session.soil = part.soils[0] ?? session.soil;
+}
+
+/**
+ * The choice of a part, where a data set has several.
+ * @param {Session} session
+ * @param {DataSet | undefined} set
+ * @param {(place: number) => void} chosen
+ */
+export function partsOf(session, set, chosen) {
+  if (!set || set.parts.length < 2) return [];
+  const select = element("select", { id: "part", onchange: (/** @type {any} */ event) => chosen(Number(event.target.value)) }, set.parts.map((part, place) => element("option", {
+    value: place, selected: part.wheel === session.wheel && part.where.join("; ") === session.where,
+  }, [part.name])));
+  return [element("div", { class: "slider" }, [element("label", {}, ["Part of the data set ", select])])];
 }
 
 /** @param {string} text */

@@ -5,8 +5,9 @@ import { byId, element, save } from "./dom.js";
 import { CampaignAnswer, about as aboutCampaign } from "./campaigns.js";
 import { DesignAnswer, about as aboutDesign, namedKeys, wordsOf } from "./design.js";
 import { Dial } from "./dial.js";
-import { DriveAnswer, aboutMission } from "./drive.js";
-import { FitAnswer, choicesOfFit } from "./fit.js";
+import { BLANK, DriveAnswer, aboutMission } from "./drive.js";
+import { BY_HAND, HandDrive } from "./hand.js";
+import { FitAnswer, choicesOfFit, optionsOf, partsOf, takePart } from "./fit.js";
 import { LogAnswer } from "./log.js";
 import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
 import { MapAnswer, offer, saidOf } from "./map.js";
@@ -45,6 +46,8 @@ let missions = [];
 let maps = [];
 /** @type {string[]} */
 let areas = [];
+/** @type {import("./fit.js").DataSet[]} */
+let dataSets = [];
 /** Keys that the sliders do not have: what of a scenario makes no difference to a heading. */
 const GRAVITY = "scenario.gravity_m_s2";
 const MOST_PINNED = 2;
@@ -158,6 +161,14 @@ function begin() {
   fit?.stop();
   log?.stop();
   const begun = () => announce("computing …");
+  if (isFit && !session.data) {
+    const set = dataSets.find((it) => !it.lacks);
+    if (set) {
+      session.data = set.name;
+      takeData(0);
+      return;
+    }
+  }
   if (session.view === "campaigns") {
     asking.ask("campaign-task", aboutCampaign({ ...session, runs: 0 }), (line) => {
       sliders = [];
@@ -194,9 +205,9 @@ function begin() {
     const names = line.names ?? {};
     sliders = [];
     if (isFit) {
-      fit = new FitAnswer(ended, begun);
+      fit = new FitAnswer(ended, begun, moved);
       place.replaceChildren(
-        element("h2", {}, ["Fit"]), ...choicesOfFit(session, keys, moved), group(`Start: ${names["soil"]}`, of("soil"), false),
+        element("h2", {}, ["Fit"]), ...partsOf(session, dataSets.find(({ name }) => name === session.data), takeData), ...choicesOfFit(session, keys, moved), group(`Start: ${names["soil"]}`, of("soil"), false),
       );
       answer.replaceChildren(fit.element);
     } else if (isWheel) {
@@ -463,15 +474,15 @@ function show(view) {
 
 /** Fills what there is to choose from. */
 async function choices() {
-  const [presets, documents, files] = await Promise.all([list("presets"), list("documents"), list("files")]);
+  const [presets, documents, files, sets] = await Promise.all([list("presets"), list("documents"), list("files"), list("data-sets")]);
+  dataSets = /** @type {any} */ (sets);
   const paths = (/** @type {string} */ kind) => files.filter((row) => row["kind"] === kind).map((row) => row["path"]);
   maps = paths("map");
   offer("dem", maps);
   session.dem ||= maps[0] ?? "";
   areas = paths("areas");
   missions = [...documents.filter((row) => row["kind"] === "mission").map((row) => row["path"]), ...presets.filter((row) => row["kind"] === "mission").map((row) => row["name"])];
-  const sets = presets.filter((row) => row["kind"] === "data-set").map((row) => row["name"]);
-  offer("data", [...paths("measurements"), ...sets]);
+  byId("data").replaceChildren(...optionsOf(dataSets));
   offer("log", paths("measurements"));
   session.log ||= paths("measurements")[0] ?? "";
   session.data ||= paths("measurements")[0] ?? sets[0] ?? "";
@@ -509,7 +520,8 @@ for (const name of PARTS) {
     session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => isOther(key)));
     if (name === "campaign") session.runs = 0;
     if (name === "dem") session.at = session.from = session.to = "";
-    if (["model", "belief", "dem", "data", "log"].includes(name)) moved();
+    if (name === "data") takeData(0);
+    else if (["model", "belief", "dem", "log"].includes(name)) moved();
     else begin();
   });
 }
@@ -521,6 +533,18 @@ byId("skip").addEventListener("click", (/** @type {Event} */ event) => {
   answer.scrollIntoView();
 });
 for (const view of Object.keys(VIEWS)) byId(`view-${view}`).addEventListener("click", () => show(view));
+/**
+ * Begins a fit to a part of the data set that is chosen, with its wheel and its soil.
+ * @param {number} part by its place
+ */
+function takeData(part) {
+  takePart(session, dataSets.find(({ name }) => name === session.data), part);
+  // Numbers of one soil are none of another.
+  session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => !/^(soil|wheel)\./.test(key)));
+  reflect();
+  begin();
+}
+
 addEventListener("hashchange", () => {
   ({ own: session, pinned } = fromAddress());
   reflect();

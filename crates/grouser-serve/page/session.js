@@ -35,6 +35,7 @@
  * @property {string} log of a drive
  * @property {string} fit keys of the soil, with commas between
  * @property {string} where conditions on rows, with semicolons between
+ * @property {string} without lines of measured trials that are left out, with commas between
  * @property {string} mission that is driven, empty for one heading
  * @property {string} seen how a drive is shown: `plan` or `scene`
  * @property {string} legs of it as JSON, empty for its own
@@ -48,7 +49,7 @@ const USUAL = {
   yaw: 0, duration: 20, ground: "", dem: "", layer: "verdict", which: "fixed", at: "", from: "", to: "", least: "time", keepout: "",
   design: "design-lighter-wheels", trade: "",
   campaign: "campaign-wheel-test", runs: 0, out: "campaign",
-  mission: "", legs: "", seen: "plan", log: "", data: "", fit: "soil.shear.longitudinal_m", where: "",
+  mission: "", legs: "", added: "", seen: "plan", log: "", data: "", fit: "soil.shear.longitudinal_m", where: "", without: "",
   set: {},
 };
 
