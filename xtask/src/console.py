@@ -533,7 +533,22 @@ def use_hand(looks, browser, server):
     legs = page.locator("#legs li").count()
     looks.claim("arrow keys drive", legs_differ() + ([] if legs == 4 else [f"there are {legs} legs"]))
     looks.claim("the keyboard reaches everything about a mission", unreached(page))
+    kinds = page.locator("#limit-kind option").count()
+    page.locator("#limit-kind").select_option("mission.stop.sinkage_over_radius.above")
+    page.locator("#limit-above").fill("0.01")
+    page.locator("#add-limit").press("Enter")
+    flaws = legs_differ()
+    stopped = [] if "sinkage" in page.locator("#answer").inner_text().lower() and page.locator("#limit-kind option").count() == kinds - 1 else ["nothing stops it"]
+    looks.claim("a kind of limit is added, and stops the rover", flaws + stopped)
+    page.get_by_label("Remove the limit: sinkage over radius").press("Enter")
+    looks.claim("a limit is taken away", legs_differ() + ([] if page.locator("#limit-kind option").count() == kinds else ["it stays"]))
 
+    page.locator("#mission").select_option("blank")
+    settled(page)
+    page.locator("#rover").select_option("rashid")
+    flaws = legs_differ()
+    setup = page.locator(".setup").first.inner_text()
+    looks.claim("a blank mission has the rover of the session", flaws + ([] if setup.startswith("Rashid") else [setup]))
 
 def use_drive(looks, browser, server):
     page, flaws = opened(browser, server, "view=drive")

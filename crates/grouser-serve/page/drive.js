@@ -25,12 +25,16 @@ const OF_ROVER = /** @type {[string, string][]} */ ([
   ["roll_deg", "roll [°]"], ["pitch_deg", "pitch [°]"], ["power_w", "power [W]"], ["energy_j", "work of the wheels [J]"],
 ]);
 
+/** The mission to begin with, which has the rover and the ground of the session. */
+export const BLANK = "blank";
+
 /**
  * What is asked of a mission, whatever the question.
  * @param {Session} session
  */
-export function aboutMission({ mission, legs, set }) {
-  return { mission, set: { ...setOf({ set }, ["mission"]), ...(legs ? { "mission.leg": JSON.parse(legs) } : {}) } };
+export function aboutMission({ mission, legs, set, rover, soil }) {
+  const parts = mission === BLANK ? { "mission.rover": rover, "mission.soil": soil } : {};
+  return { mission, set: { ...parts, ...setOf({ set }, ["mission"]), ...(legs ? { "mission.leg": JSON.parse(legs) } : {}) } };
 }
 
 /** What the arrow keys add to a mission on its track: a fifth of a metre, or 15° on the spot. */

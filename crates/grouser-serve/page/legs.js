@@ -69,3 +69,49 @@ export function legsTable(legs, changed, reordered) {
     element("div", { class: "choice" }, ["Add ", ...NEW.map(([text, leg]) => button(text, `Add: ${text.toLowerCase()}`, () => legs.push(structuredClone(leg)), false))]),
   ]);
 }
+
+/**
+ * A number at which a mission may stop.
+ * @typedef {object} Limit
+ * @property {string} key
+ * @property {string} label
+ * @property {string} meaning
+ * @property {number | null} minimum
+ * @property {number | null} maximum
+ * @property {string} unit
+ */
+
+/**
+ * The button that takes away a limit.
+ * @param {string} label
+ * @param {() => void} act
+ */
+export function removeLimit(label, act) {
+  return element("button", { type: "button", "aria-label": `Remove the limit: ${label}`, title: "Remove", onclick: act }, ["✕"]);
+}
+
+/**
+ * The choice of a limit that is not there, with its number.
+ * @param {Limit[]} limits
+ * @param {(key: string, value: number) => void} add
+ */
+export function addLimit(limits, add) {
+  const find = () => limits.find((it) => it.key === kind.value);
+  const kind = /** @type {HTMLSelectElement} */ (element("select", { id: "limit-kind", onchange: () => shown() }, limits.map(({ key, label, meaning }) => element("option", { value: key, title: meaning }, [label]))));
+  const number = /** @type {HTMLInputElement} */ (element("input", { type: "number", id: "limit-above", step: "any", required: true }));
+  const about = element("p", { class: "setup" });
+  const shown = () => {
+    const limit = find();
+    number.setAttribute("min", String(limit?.minimum ?? 0));
+    if (limit?.maximum != null) number.setAttribute("max", String(limit.maximum));
+    about.textContent = limit?.meaning ?? "";
+  };
+  shown();
+  const button = element("button", { type: "button", id: "add-limit", onclick: () => {
+    const limit = find();
+    if (limit && number.reportValidity()) add(limit.key, number.valueAsNumber);
+  } }, ["Add the limit"]);
+  return element("div", { class: "add-limit" }, [
+    element("label", {}, ["Stop where the ", kind]), " ", element("label", {}, [" is above ", number]), " ", button, about,
+  ]);
+}

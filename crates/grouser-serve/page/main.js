@@ -11,7 +11,7 @@ import { FitAnswer, choicesOfFit, optionsOf, partsOf, takePart } from "./fit.js"
 import { LogAnswer } from "./log.js";
 import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
 import { MapAnswer, offer, saidOf } from "./map.js";
-import { addLeg, legsTable } from "./legs.js";
+import { addLeg, addLimit, legsTable, removeLimit } from "./legs.js";
 import { fromAddress, toAddress } from "./session.js";
 import { Slider, endsOf } from "./slider.js";
 import { WheelAnswer, labelOf } from "./wheel.js";
@@ -304,17 +304,19 @@ function looked(seen, isToAsk) {
 function whatIsDriven() {
   const select = element("select", { id: "mission", onchange: (/** @type {any} */ event) => {
     session.mission = event.target.value;
-    session.legs = "";
+    session.legs = session.added = "";
     session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => !key.startsWith("mission.")));
     begin();
     byId("mission")?.focus();
-  } }, ["", ...missions].map((name) => element("option", { value: name, selected: name === session.mission }, [name || "one heading"])));
+  } }, ["", BY_HAND, ...missions].map((name) => element("option", { value: name, selected: name === session.mission }, [name === BLANK ? "a blank mission" : name || "one heading"])));
   return element("div", { class: "slider" }, [element("label", {}, ["Drive ", select])]);
 }
 
 /** Makes the legs and limits of a mission, then drives it. */
 function beginMission() {
-  for (const part of VIEWS["drive"] ?? []) byId(part).closest("label").hidden = true;
+  // A blank one has the rover and the ground of the session.
+  const isHidden = (/** @type {Part} */ part) => session.mission !== BLANK || part === "model";
+  for (const part of VIEWS["drive"] ?? []) byId(part).closest("label").hidden = isHidden(part);
   asking.ask("mission-task", aboutMission(session), (line) => {
     sliders = [];
     const legs = line.legs ?? [];
@@ -345,7 +347,8 @@ function beginMission() {
     };
     const { rover, soil } = line.names ?? {};
     const parts = element("p", { class: "setup" }, [`${rover} on ${soil}, as the mission has them`]);
-    place.replaceChildren(element("h2", {}, ["Move"]), whatIsDriven(), parts, table, ...limits.map(ofKey), group("Other numbers", others.map(ofKey), false));
+    const all = /** @type {any} */ (line).limits ?? [];
+    place.replaceChildren(element("h2", {}, ["Move"]), whatIsDriven(), parts, table, limitsOf(limits, all), group("Other numbers", others.map(ofKey), false));
     answer.replaceChildren(own.element);
     moved();
   }, (error) => {
@@ -356,6 +359,34 @@ function beginMission() {
 }
 
 /**
+/**
+ * The limits at which a mission stops, and one more of those that there may be.
+ * @param {import("./api.js").Key[]} keys
+ * @param {import("./legs.js").Limit[]} all
+ */
+function limitsOf(keys, all) {
+  const again = () => {
+    toAddress(session, pinned);
+    begin();
+  };
+  const own = keys.map((key) => {
+    const limit = all.find((it) => it.key === key.key);
+    const slider = ofKey(limit ? { ...key, meaning: `Stop: ${limit.label.replace(/ \[.*/, "")} above` } : key);
+    const isAdded = session.added.split(",").includes(key.key);
+    return isAdded ? element("div", { class: "added" }, [slider, removeLimit(limit?.label ?? key.key, () => {
+      delete session.set[key.key];
+      session.added = session.added.split(",").filter((it) => it !== key.key).join(",");
+      again();
+    })]) : slider;
+  });
+  const others = all.filter((it) => !keys.some((key) => key.key === it.key));
+  return element("fieldset", { id: "limits" }, [element("legend", {}, ["Limits"]), ...own, addLimit(others, (key, value) => {
+    session.set[key] = value;
+    session.added = [...session.added.split(",").filter(Boolean), key].join(",");
+    again();
+  })]);
+}
+
  * How many runs a campaign has, and into which folder they go.
  * @param {number} usual
  */

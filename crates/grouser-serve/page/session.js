@@ -39,6 +39,7 @@
  * @property {string} mission that is driven, empty for one heading
  * @property {string} seen how a drive is shown: `plan` or `scene`
  * @property {string} legs of it as JSON, empty for its own
+ * @property {string} added keys of its limits that are none of its own, with commas between
  * @property {Record<string, number>} set keys of documents that have another number
  */
 
