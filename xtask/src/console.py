@@ -560,6 +560,13 @@ def use_drive(looks, browser, server):
     run = server.run(page.locator("#command").inner_text())
     looks.claim("keys scrub to a record", records_differ(page, run, 7))
     page.get_by_label("Slope, in °").focus()
+    page.locator(".figures .picked").first.scroll_into_view_if_needed()
+    box = page.locator(".figures .picked").first.bounding_box()
+    page.mouse.click(box["x"] + (52 + 0.5 * 350) / 420 * box["width"], box["y"] + 0.5 * box["height"])
+    time = float(page.locator("#clock").inner_text().split()[0])
+    place = min(range(len(run["samples"])), key=lambda at: abs(run["samples"][at]["time_s"] - time))
+    middle = run["samples"][-1]["time_s"] / 2
+    looks.claim("a click on a chart leads to its time", records_differ(page, run, place) + ([] if abs(time - middle) < 0.3 else [f"it is at {time} s"]))
     for _ in range(5):
         page.keyboard.press("ArrowRight")
     settled(page)

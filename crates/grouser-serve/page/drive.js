@@ -236,12 +236,20 @@ export class DriveAnswer {
       const curves = wheels.map((name, place) => ({
         name, points: /** @type {[number, number][]} */ (samples.map((/** @type {any} */ it) => [it.time_s, it.wheels[place]?.[column]]).filter((/** @type {any} */ it) => typeof it[1] === "number")),
       }));
-      const { drawn, cursor } = drawOver({ title, x: "time [s]", y: title, curves, isNamed: true });
+      const { drawn, cursor } = drawOver({ title, x: "time [s]", y: title, curves, isNamed: true }, (time) => this.goTo(time));
       this.cursors.push(cursor);
       return element("figure", {}, [drawn]);
     }));
-    this.drawPlan(samples, isPlane);
-    this.show(Math.round(before * last));
+  }
+
+  /**
+   * Shows the record that is the nearest to a time.
+   * @param {number} time [s]
+   */
+  goTo(time) {
+    this.pause();
+    const apart = (this.run?.samples ?? []).map((/** @type {Row} */ it) => Math.abs(it["time_s"] - time));
+    if (apart.length) this.show(apart.indexOf(Math.min(...apart)));
   }
 
   /**
