@@ -7,8 +7,12 @@ declare module "three" {
     y: number;
     z: number;
     add(other: Vector3): this;
+    set(x: number, y: number, z: number): this;
     copy(other: Vector3): this;
     setFromSphericalCoords(radius: number, phi: number, theta: number): this;
+  }
+  export class Euler {
+    constructor(x: number, y: number, z: number, order?: string);
   }
   export class Color {
     constructor(colour: string);
@@ -30,12 +34,15 @@ declare module "three" {
   export class Object3D {
     name: string;
     children: Object3D[];
+    parent: Object3D | null;
     position: Vector3;
     renderOrder: number;
     geometry?: { dispose(): void };
     material?: Material;
     add(...objects: Object3D[]): this;
     remove(...objects: Object3D[]): this;
+    removeFromParent(): this;
+    setRotationFromEuler(euler: Euler): void;
     getObjectByName(name: string): Object3D | undefined;
     getWorldPosition(target: Vector3): Vector3;
     lookAt(at: Vector3): void;
@@ -43,6 +50,20 @@ declare module "three" {
     updateMatrixWorld(force?: boolean): void;
   }
   export class Group extends Object3D {}
+  export class BufferGeometry {
+    setFromPoints(points: Vector3[]): this;
+    dispose(): void;
+  }
+  export class LineBasicMaterial implements Material {
+    constructor(parameters: { color: string });
+    name: string;
+    opacity: number;
+    transparent: boolean;
+    dispose(): void;
+  }
+  export class Line extends Object3D {
+    constructor(geometry: BufferGeometry, material: Material);
+  }
   export class Scene extends Object3D {
     background: Color | null;
   }

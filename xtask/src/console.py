@@ -19,11 +19,12 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-VIEWS = ("heading", "wheel", "drive", "scene", "mission", "map", "design", "campaigns", "fit", "log")
+VIEWS = ("heading", "wheel", "drive", "scene", "hand", "mission", "map", "design", "campaigns", "fit", "log")
 #: The sessions that views are looked at with, where they show little by themselves.
 SEEN = {
     "map": "view=map&at=10,20&from=-35,-35&to=35,35",
     "scene": "view=drive&seen=scene",
+    "hand": "view=drive&mission=by+hand&soil=toyoura",
     "mission": "view=drive&mission=switchbacks-15-deg",
     "design": "view=design&belief=nominal",
     "campaigns": "view=campaigns&runs=2000&out=looked",
@@ -45,7 +46,6 @@ AXE = """async (impacts) => {
 }"""
 
 
-class Server:
 #: Tables that are cut off where nothing scrolls, and names of columns that stand as labels.
 UNREADABLE = r"""() => [...document.querySelectorAll('#answer table')].flatMap((table) => {
   const around = table.closest('.wide, .card, figure');
@@ -56,6 +56,7 @@ UNREADABLE = r"""() => [...document.querySelectorAll('#answer table')].flatMap((
 })"""
 
 
+class Server:
     """`grouser serve` in a folder of its own, until the end of a block."""
 
     def __init__(self, program):
@@ -230,11 +231,11 @@ def use_map(looks, browser, server):
     go = f"go {round(1000 * shares['go'] / known) / 10:g} %"
     looks.claim("the map's verdicts are the program's", [] if words.startswith(go) else [f"{words}, the program has {shares}"])
     looks.claim("a place agrees with the heading", places_differ(page, server))
-    before = page.locator("#place caption").inner_text()
     labels = page.locator("#place th").all_inner_texts()
     has_both = any("on the map" in it for it in labels) and any("offset from the contour" in it for it in labels)
     rule = page.locator("#place [data-column='rule']").inner_text()
     looks.claim("a heading of the map is no offset, and a verdict has its thresholds", [] if has_both and "0.3" in rule else [*labels, rule])
+    before = page.locator("#place caption").inner_text()
     page.locator(".marks").focus()
     for _ in range(4):
         page.keyboard.press("Shift+ArrowLeft")
@@ -246,9 +247,9 @@ def use_map(looks, browser, server):
     page.mouse.click(box["x"] + 0.2 * box["width"], box["y"] + 0.65 * box["height"])
     page.get_by_role("button", name="goal", exact=True).click()
     page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
-    settled(page)
     said = page.locator("#busy").inner_text()
     looks.claim("a way that is computed is not up to date", [] if said == "computing the way …" else [said])
+    settled(page)
     page.wait_for_selector("#way-command", timeout=60000)
     settled(page)
     looks.claim("a way has the program's numbers", way_differs(page, server))
@@ -406,9 +407,6 @@ def use_without_depth(looks, browser, server):
     page.context.close()
 
 
-def use_mission(looks, page, server):
-    """Drives a mission, another leg of it, and a place that is dragged, and compares each."""
-
 def live(page, column):
     """A number of the drive by hand, now."""
     return float(page.locator(f"[data-column='live-{column}']").inner_text())
@@ -504,6 +502,9 @@ def use_hand(looks, browser, server):
     page.context.close()
 
 
+def use_mission(looks, page, server):
+    """Drives a mission, another leg of it, and a place that is dragged, and compares each."""
+
     def legs_differ():
         settled(page)
         legs = server.run(page.locator("#command").inner_text())["legs"]
@@ -532,7 +533,6 @@ def use_hand(looks, browser, server):
         page.keyboard.press(key)
     legs = page.locator("#legs li").count()
     looks.claim("arrow keys drive", legs_differ() + ([] if legs == 4 else [f"there are {legs} legs"]))
-    looks.claim("the keyboard reaches everything about a mission", unreached(page))
     kinds = page.locator("#limit-kind option").count()
     page.locator("#limit-kind").select_option("mission.stop.sinkage_over_radius.above")
     page.locator("#limit-above").fill("0.01")
@@ -542,13 +542,14 @@ def use_hand(looks, browser, server):
     looks.claim("a kind of limit is added, and stops the rover", flaws + stopped)
     page.get_by_label("Remove the limit: sinkage over radius").press("Enter")
     looks.claim("a limit is taken away", legs_differ() + ([] if page.locator("#limit-kind option").count() == kinds else ["it stays"]))
-
+    looks.claim("the keyboard reaches everything about a mission", unreached(page))
     page.locator("#mission").select_option("blank")
     settled(page)
     page.locator("#rover").select_option("rashid")
     flaws = legs_differ()
     setup = page.locator(".setup").first.inner_text()
     looks.claim("a blank mission has the rover of the session", flaws + ([] if setup.startswith("Rashid") else [setup]))
+
 
 def use_drive(looks, browser, server):
     page, flaws = opened(browser, server, "view=drive")
@@ -559,7 +560,6 @@ def use_drive(looks, browser, server):
         page.keyboard.press("ArrowRight")
     run = server.run(page.locator("#command").inner_text())
     looks.claim("keys scrub to a record", records_differ(page, run, 7))
-    page.get_by_label("Slope, in °").focus()
     page.locator(".figures .picked").first.scroll_into_view_if_needed()
     box = page.locator(".figures .picked").first.bounding_box()
     page.mouse.click(box["x"] + (52 + 0.5 * 350) / 420 * box["width"], box["y"] + 0.5 * box["height"])
@@ -567,6 +567,7 @@ def use_drive(looks, browser, server):
     place = min(range(len(run["samples"])), key=lambda at: abs(run["samples"][at]["time_s"] - time))
     middle = run["samples"][-1]["time_s"] / 2
     looks.claim("a click on a chart leads to its time", records_differ(page, run, place) + ([] if abs(time - middle) < 0.3 else [f"it is at {time} s"]))
+    page.get_by_label("Slope, in °").focus()
     for _ in range(5):
         page.keyboard.press("ArrowRight")
     settled(page)
@@ -665,6 +666,15 @@ def use_fit(looks, browser, server):
     settled(page)
     looks.claim("a fit is stopped by the keyboard", [] if page.locator("#start").is_enabled() else ["it goes on"])
     page.locator("#belief").select_option("nominal")
+    trials = page.locator("#trials .trial").count()
+    page.locator("#trials").scroll_into_view_if_needed()
+    box = page.locator("#trials .trial").nth(3).bounding_box()
+    page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+    page.locator("#trials").focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Enter")
+    said = page.locator("#trial-count").inner_text()
+    left_out = [] if said == f"The fit goes without 2 of {trials} trials." else [said]
     page.locator("#start").press("Enter")
     settled(page)
     command = page.locator("#command").inner_text()
@@ -675,6 +685,13 @@ def use_fit(looks, browser, server):
     shown = page.locator(".wide [data-column='fit']").first.inner_text()
     looks.claim("a fit is the program's", [] if shown == four(row["fit"]) else [f"it is {shown}, the program has {row['fit']}"])
     looks.claim("the keyboard reaches everything about a fit", unreached(page))
+    lacking = page.locator("#data option[value='hakuto-slope']")
+    said = lacking.inner_text() if lacking.is_disabled() else "it is offered"
+    looks.claim("a data set without loads is not offered, and says why", [] if "load is missing" in said else [said])
+    page.locator("#data").select_option("cmu-single-wheel")
+    settled(page)
+    taken = [page.locator(it).input_value() for it in ("#wheel", "#soil")]
+    looks.claim("a data set takes its wheel and its soil", [] if taken[0] == "cmu-smooth" and taken[1] != "toyoura" else [f"it has {taken}"])
     looks.claim("nothing goes wrong about a fit", flaws)
     page.context.close()
 
@@ -688,15 +705,6 @@ def use_log(looks, browser, server):
     found = page.locator("#found").inner_text()
     looks.claim("a log points to what the program says", [] if found == points[0] else [f"{found}, the program has {points}"])
     page.get_by_role("spinbutton", name=re.compile("Angle of internal friction")).fill("30")
-    trials = page.locator("#trials .trial").count()
-    page.locator("#trials").scroll_into_view_if_needed()
-    box = page.locator("#trials .trial").nth(3).bounding_box()
-    page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
-    page.locator("#trials").focus()
-    page.keyboard.press("ArrowRight")
-    page.keyboard.press("Enter")
-    said = page.locator("#trial-count").inner_text()
-    left_out = [] if said == f"The fit goes without 2 of {trials} trials." else [said]
     page.locator("#start").press("Enter")
     settled(page)
     found = page.locator("#found").inner_text()
@@ -707,13 +715,6 @@ def use_log(looks, browser, server):
     settled(page)
     said = page.locator("#why-none").inner_text()
     looks.claim("what is no log is refused in the engine's words", [] if "wheel_speed_rad_s" in said or "time" in said else [said])
-    lacking = page.locator("#data option[value='hakuto-slope']")
-    said = lacking.inner_text() if lacking.is_disabled() else "it is offered"
-    looks.claim("a data set without loads is not offered, and says why", [] if "load is missing" in said else [said])
-    page.locator("#data").select_option("cmu-single-wheel")
-    settled(page)
-    taken = [page.locator(it).input_value() for it in ("#wheel", "#soil")]
-    looks.claim("a data set takes its wheel and its soil", [] if taken[0] == "cmu-smooth" and taken[1] != "toyoura" else [f"it has {taken}"])
     looks.claim("nothing goes wrong about a log", [it for it in flaws if "422" not in it])
     page.context.close()
 
@@ -750,9 +751,12 @@ def look_at_views(looks, browser, server, axe, pictures):
                 page, flaws = started(browser, server, fragment, size, theme)
                 if page.evaluate("document.documentElement.scrollWidth > document.documentElement.clientWidth"):
                     flaws.append("wider than the window")
+                flaws += page.evaluate(UNREADABLE)
                 if "token" in page.url:
                     flaws.append("the address keeps the token")
-                if is_first:
+                if is_first and view == "hand":
+                    held(page, "ArrowUp", 3000)
+                if is_first and view != "hand":
                     looks.claim(f"a key saves a slide of {view}", slide_differs(page))
                 if pictures and is_first:
                     page.screenshot(path=str(Path(pictures, f"{view}.png")))
@@ -767,6 +771,8 @@ def look_at_views(looks, browser, server, axe, pictures):
 def use(looks, browser, server):
     page, flaws = opened(browser, server)
     looks.claim("numbers are the program's", numbers_differ(page, server))
+    rule = page.locator("article [data-column='rule']").inner_text()
+    looks.claim("a verdict has its thresholds beside it", [] if "0.3" in rule and "95 %" in rule and "0.6" in rule else [rule])
     before = page.locator("article .number").first.inner_text()
     page.get_by_label("Slope, in °").focus()
     for _ in range(5):
@@ -791,7 +797,6 @@ def use(looks, browser, server):
     is_back = friction.input_value() == "99" and said and "it must be 5 to 60" in said[0]
     looks.claim("and gives way to the last one, and to what is wrong with it", [] if is_back else [friction.input_value(), *said])
     friction.fill("38")
-                flaws += page.evaluate(UNREADABLE)
     settled(page)
     looks.claim("an error goes with its cause", page.locator(".slider .error:not(:empty)").all_inner_texts())
     page.evaluate("document.activeElement.blur()")
@@ -809,8 +814,6 @@ def use(looks, browser, server):
     page, flaws = opened(browser, server, "soil=hostile.toml")
     there = page.locator("summary").first.inner_text()
     looks.claim("a hostile name is text", flaws + ([] if HOSTILE in there else [f"there is {there}"]))
-    rule = page.locator("article [data-column='rule']").inner_text()
-    looks.claim("a verdict has its thresholds beside it", [] if "0.3" in rule and "95 %" in rule and "0.6" in rule else [rule])
     page.context.close()
     page, flaws = opened(browser, server, "view=wheel")
     row = next(it for it in server.run(page.locator("#command").inner_text())["rows"] if it["slip_ratio"] == 0.2)
@@ -820,7 +823,14 @@ def use(looks, browser, server):
     looks.claim("the wheel is drawn", [] if page.locator("figure img").count() == 3 else ["it is not"])
     looks.claim("the keyboard reaches everything about a wheel", unreached(page))
     page.context.close()
+    page, flaws = opened(browser, server, "view=heading&rover=viper")
+    page.get_by_role("button", name="Wheel", exact=True).click()
+    settled(page)
+    command = page.locator("#command").inner_text()
+    looks.claim("the wheel is that of the rover", flaws + ([] if "--wheel viper-engineering" in command else [command]))
+    page.context.close()
     use_drive(looks, browser, server)
+    use_hand(looks, browser, server)
     use_scene(looks, browser, server)
     use_without_depth(looks, browser, server)
     use_design(looks, browser, server)
@@ -848,9 +858,3 @@ def main(chromium, axe, program, pictures=None):
 
 if __name__ == "__main__":
     sys.exit(main(*sys.argv[1:]))
-    page, flaws = opened(browser, server, "view=heading&rover=viper")
-    page.get_by_role("button", name="Wheel", exact=True).click()
-    settled(page)
-    command = page.locator("#command").inner_text()
-    looks.claim("the wheel is that of the rover", flaws + ([] if "--wheel viper-engineering" in command else [command]))
-    page.context.close()

@@ -212,8 +212,20 @@ export class DriveAnswer {
     this.run = run;
     const last = samples.length - 1;
     this.time.setAttribute("max", String(last));
+    this.outcome.replaceChildren(...this.became(run));
+    this.drawCharts(run);
+    this.drawPlan(samples, isPlane);
+    this.show(Math.round(before * last));
+  }
+
+  /**
+   * What became of the rover.
+   * @param {any} run
+   * @returns {Node[]}
+   */
+  became(run) {
     const isCompleted = run.outcome === "completed";
-    this.outcome.replaceChildren(
+    return [
       element("p", { class: `verdict ${isCompleted ? "go" : "no_go"}`, id: "outcome" }, [
         element("span", { "aria-hidden": "true" }, [isCompleted ? "✓" : "✕"]), run.outcome.replace(/_/g, " "),
       ]),
@@ -224,8 +236,16 @@ export class DriveAnswer {
           element("th", { scope: "row" }, [label]), element("td", { "data-column": `final-${column}` }, [four(run.final[column])]),
         ]))),
       ]),
-      ...(run.flags.length ? [element("p", { class: "sentence" }, [`Outside of what was measured: ${run.flags.join(", ")}.`])] : []),
-    );
+      ...(run.flags.length ? [element("p", { class: "sentence" }, [`Outside of what was measured: ${run.flags.join(", ").replace(/_/g, " ")}.`])] : []),
+    ];
+  }
+
+  /**
+   * Every wheel over the time; a click leads there.
+   * @param {any} run
+   */
+  drawCharts(run) {
+    const { samples } = run;
     /** @type {string[]} */
     const wheels = run.final.wheels.map((/** @type {Row} */ wheel) => wheel["wheel"]);
     this.names.replaceChildren("Wheels: ", ...wheels.map((name, place) => element("span", {}, [
@@ -347,7 +367,7 @@ export class DriveAnswer {
     time.setAttribute("aria-valuetext", `${four(record.time_s)} s`);
     this.clock.textContent = `${four(record.time_s)} s`;
     this.pose?.(record);
-    this.scene.at(record.time_s);
+    this.stand(record);
     for (const cursor of this.cursors) cursor(record.time_s);
     const rover = OF_ROVER.filter(([column]) => typeof record[column] === "number").map(([column, label]) => {
       const [name, unit = ""] = label.replace("]", "").split(" [");
@@ -363,6 +383,14 @@ export class DriveAnswer {
         ]))),
       ]),
     );
+  }
+
+  /**
+   * Has the rover stand in three dimensions as a record has it.
+   * @param {Row} record
+   */
+  stand(record) {
+    this.scene.at(record["time_s"]);
   }
 
   play() {

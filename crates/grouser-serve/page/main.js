@@ -193,7 +193,8 @@ function begin() {
     });
     return;
   }
-  if (isDrive && session.mission) {
+  const isByHand = session.mission === BY_HAND;
+  if (isDrive && session.mission && !isByHand) {
     beginMission();
     return;
   }
@@ -240,7 +241,7 @@ function begin() {
         group(`Soil: ${names["soil"]}`, of("soil"), true), group(`Rover: ${names["rover"]}`, of("rover"), false),
       );
       if (isDrive) {
-        drive = new DriveAnswer(ended, looked);
+        drive = isByHand ? new HandDrive(ended, looked) : new DriveAnswer(ended, looked);
         answer.replaceChildren(drive.element);
       } else if (isMap) {
         map = new MapAnswer(ended, () => toAddress(session, pinned), areas);
@@ -359,7 +360,6 @@ function beginMission() {
 }
 
 /**
-/**
  * The limits at which a mission stops, and one more of those that there may be.
  * @param {import("./api.js").Key[]} keys
  * @param {import("./legs.js").Limit[]} all
@@ -387,6 +387,7 @@ function limitsOf(keys, all) {
   })]);
 }
 
+/**
  * How many runs a campaign has, and into which folder they go.
  * @param {number} usual
  */
@@ -417,7 +418,7 @@ function run() {
   return [
     whatIsDriven(), element("div", { class: "slider" }, [element("label", {}, ["On ", ground])]), slope,
     ofSession("yaw", "yaw_deg", "Yaw at the start, uphill, on a map from east to the left", "°", [-90, 90]),
-    ofSession("duration", "duration_s", "Length of the run", "s", [5, 120]),
+    ...(session.mission === BY_HAND ? [] : [ofSession("duration", "duration_s", "Length of the run", "s", [5, 120])]),
   ];
 }
 
@@ -516,7 +517,6 @@ async function choices() {
   byId("data").replaceChildren(...optionsOf(dataSets));
   offer("log", paths("measurements"));
   session.log ||= paths("measurements")[0] ?? "";
-  session.data ||= paths("measurements")[0] ?? sets[0] ?? "";
   for (const kind of ["rover", "soil", "wheel", "design", "campaign"]) {
     const select = byId(kind);
     const option = (/** @type {string} */ value, /** @type {string} */ title) =>
@@ -524,11 +524,24 @@ async function choices() {
     const own = documents.filter((row) => row["kind"] === kind).map((row) => option(row["path"], row["path"]));
     const known = presets.filter((row) => row["kind"] === kind).map((row) => option(row["name"], row["title"]));
     select.replaceChildren(
+      ...(kind === "wheel" ? [element("option", { value: "" }, ["of the rover"])] : []),
       ...(own.length ? [element("optgroup", { label: "Of the folder" }, own)] : []),
       element("optgroup", { label: "Presets" }, known),
     );
   }
   reflect();
+}
+
+/**
+ * Begins a fit to a part of the data set that is chosen, with its wheel and its soil.
+ * @param {number} part by its place
+ */
+function takeData(part) {
+  takePart(session, dataSets.find(({ name }) => name === session.data), part);
+  // Numbers of one soil are none of another.
+  session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => !/^(soil|wheel)\./.test(key)));
+  reflect();
+  begin();
 }
 
 /** Shows in the session line what the session has. */
@@ -549,6 +562,7 @@ for (const name of PARTS) {
     // Numbers of one document are none of another.
     const isOther = (/** @type {string} */ key) => !key.startsWith(`${name}.`);
     session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => isOther(key)));
+    if (name === "rover") session.wheel = "";
     if (name === "campaign") session.runs = 0;
     if (name === "dem") session.at = session.from = session.to = "";
     if (name === "data") takeData(0);
@@ -564,22 +578,9 @@ byId("skip").addEventListener("click", (/** @type {Event} */ event) => {
   answer.scrollIntoView();
 });
 for (const view of Object.keys(VIEWS)) byId(`view-${view}`).addEventListener("click", () => show(view));
-/**
- * Begins a fit to a part of the data set that is chosen, with its wheel and its soil.
- * @param {number} part by its place
- */
-function takeData(part) {
-  takePart(session, dataSets.find(({ name }) => name === session.data), part);
-  // Numbers of one soil are none of another.
-  session.set = Object.fromEntries(Object.entries(session.set).filter(([key]) => !/^(soil|wheel)\./.test(key)));
-  reflect();
-  begin();
-}
-
 addEventListener("hashchange", () => {
   ({ own: session, pinned } = fromAddress());
   reflect();
-      ...(kind === "wheel" ? [element("option", { value: "" }, ["of the rover"])] : []),
   begin();
 });
 addEventListener("keydown", (event) => {
@@ -593,4 +594,3 @@ answer.addEventListener("click", (/** @type {any} */ event) => {
 
 byId("busy").setAttribute("aria-live", "polite");
 choices().then(begin, complain);
-    if (name === "rover") session.wheel = "";

@@ -9,6 +9,8 @@ import { element, four } from "./dom.js";
 const VIEW = 36;
 /** Where the eye is at first: its angle around the vertical, and that from it [rad]. */
 const EYE = { around: 0.6, down: 1.15 };
+/** A time after the end of every animation [s]. */
+const END = 1e6;
 /** How far a key turns the view [rad], and how much nearer or farther it goes. */
 const STEP = { turn: Math.PI / 36, zoom: 1.15 };
 /** How far the view turns over the width of the picture [rad]. */
@@ -33,6 +35,9 @@ export function hasDepth() {
   }
   return isAble;
 }
+
+/** @param {string} keys that turn the view */
+const helpOf = (keys) => `Drag, or use ${keys}, to turn the view. Two fingers, + and −, or the wheel of the mouse after a click come nearer and go away.`;
 
 /** Loads three.js, once. */
 async function load() {
@@ -64,10 +69,20 @@ export class DriveScene {
     /** The time that is shown [s]. */
     this.time = 0;
     this.isFollowing = true;
+    /** Whether the arrow keys drive the rover, and turn the view with Shift alone. */
+    this.isDriven = false;
+    /** How the rover stands, where no animation says so. @type {Record<string, any> | undefined} */
+    this.standing = undefined;
+    /** The way so far, in the ground's frame. @type {[number, number, number][]} */
+    this.way = [];
+    /** @type {import("three").Line | undefined} */
+    this.trail = undefined;
     this.eye = { ...EYE, distance: 1 };
     /** @type {import("three").Vector3 | undefined} */
     this.target = undefined;
     this.drawing = 0;
+    /** Height of the rover's centre of mass in the scene [m]. */
+    this.height = 0;
     /** @type {Map<number, [number, number]>} the fingers on the picture */
     this.fingers = new Map();
     this.follow = element("button", { type: "button", id: "follow", "aria-pressed": "true", onclick: () => {
@@ -78,15 +93,22 @@ export class DriveScene {
     this.again = element("button", { type: "button", onclick: () => this.frame() }, ["Reset the view"]);
     this.place = element("div", { class: "stage" });
     this.words = element("p", { class: "setup", id: "scene-words" });
+    this.help = element("figcaption", {}, [helpOf("the arrow keys")]);
     this.element = element("figure", { class: "scene", "aria-label": "The drive in three dimensions", "aria-busy": "false", hidden: true }, [
       this.place,
       element("div", { class: "choice" }, [this.follow, this.again]),
       this.words,
-      element("figcaption", {}, ["Drag, or use the arrow keys, to turn the view. Two fingers, + and −, or the wheel of the mouse after a click come nearer and go away."]),
+      this.help,
     ]);
     this.sizes = new ResizeObserver(() => this.draw());
     this.darkness = matchMedia("(prefers-color-scheme: dark)");
     this.redraw = () => this.draw();
+  }
+
+  /** Leaves the arrow keys to a drive. */
+  leaveArrows() {
+    this.isDriven = true;
+    this.help.textContent = helpOf("Shift with the arrow keys");
   }
 
   /** A scene is on its way. */
@@ -133,7 +155,12 @@ export class DriveScene {
         this.action.clampWhenFinished = true;
         this.action.play();
       }
-      this.at(this.time);
+      if (this.isDriven) {
+        // The wheels have their places at the end of it.
+        this.at(END);
+        this.height = this.rover?.position.z ?? 0;
+        if (this.standing) this.stand(this.standing);
+      } else this.at(this.time);
       if (!this.target) this.frame();
       this.element.setAttribute("aria-busy", "false");
     } catch (error) {
@@ -146,7 +173,7 @@ export class DriveScene {
    * @param {Three} three
    */
   begin(three) {
-    const canvas = /** @type {HTMLCanvasElement} */ (element("canvas", { tabindex: 0, role: "application", "aria-label": "The drive in three dimensions: arrow keys turn the view, plus and minus zoom", "aria-describedby": "scene-words" }));
+    const canvas = /** @type {HTMLCanvasElement} */ (element("canvas", { tabindex: 0, role: "application", "aria-label": `The drive in three dimensions: ${this.isDriven ? "Shift with arrow keys turns" : "arrow keys turn"} the view, plus and minus zoom`, "aria-describedby": "scene-words" }));
     const renderer = new three.WebGLRenderer({ canvas, antialias: true });
     const scene = new three.Scene();
     const sun = new three.DirectionalLight(0xffffff, 1.5);
@@ -166,6 +193,7 @@ export class DriveScene {
     canvas.addEventListener("keydown", (event) => {
       const move = KEYS[event.key];
       if (!move || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (this.isDriven && event.key.startsWith("Arrow") && !event.shiftKey) return;
       event.preventDefault();
       this.move(...move);
     });
@@ -234,17 +262,74 @@ export class DriveScene {
     // One that came to its end stands still.
     action.reset();
     mixer.setTime(time / this.pace);
+    this.tell(rover);
+    this.draw();
+  }
+
+  /**
+   * The wheels of a rover.
+   * @param {import("three").Object3D} rover
+   */
+  wheelsOf(rover) {
     /** @type {import("three").Object3D[]} */
     const wheels = [];
     rover.traverse((part) => {
       if (/[ _]wheel$/.test(part.name)) wheels.push(part);
     });
+    return wheels;
+  }
+
+  /**
+   * Has the rover stand as a record has it, with its way behind it. On a plane its height stays that of
+   * the scene, and so do the arms of a suspension on a map.
+   * @param {Record<string, any>} record
+   */
+  stand(record) {
+    this.standing = record;
+    const { rover, stage } = this;
+    if (!rover || !stage) return;
+    const { three } = stage;
+    const angle = (/** @type {string} */ of) => Math.PI / 180 * (record[of] ?? 0);
+    rover.position.set(record["x_m"], record["y_m"], record["z_m"] ?? this.height);
+    rover.setRotationFromEuler(new three.Euler(angle("roll_deg"), -angle("pitch_deg"), angle("yaw_deg"), "ZYX"));
+    for (const [place, wheel] of this.wheelsOf(rover).entries()) {
+      wheel.setRotationFromEuler(new three.Euler(0, record["turned_rad"]?.[place] ?? 0, 0));
+    }
+    this.follows(rover);
+    this.tell(rover);
+    this.draw();
+  }
+
+  /**
+   * Draws the way behind the rover.
+   * @param {import("three").Object3D} rover
+   */
+  follows(rover) {
+    const { stage, trail } = this;
+    if (trail) {
+      trail.removeFromParent();
+      release(trail);
+    }
+    this.trail = undefined;
+    if (!stage || !rover.parent || this.way.length < 2) return;
+    const { BufferGeometry, Line, LineBasicMaterial, Vector3 } = stage.three;
+    const colour = getComputedStyle(this.place).getPropertyValue("--second").trim();
+    const places = this.way.map((at) => new Vector3(...at));
+    this.trail = new Line(new BufferGeometry().setFromPoints(places), new LineBasicMaterial({ color: colour }));
+    rover.parent.add(this.trail);
+  }
+
+  /**
+   * Says in words where the rover is.
+   * @param {import("three").Object3D} rover
+   */
+  tell(rover) {
+    const wheels = this.wheelsOf(rover);
     const axes = /** @type {("x" | "y" | "z")[]} */ (["x", "y", "z"]);
     this.words.replaceChildren(
       "A rover with ", element("span", { "data-column": "scene-wheels" }, [String(wheels.length)]), " wheels, its centre of mass at ",
       ...axes.flatMap((axis, place) => [`${place ? ", " : ""}${axis} `, element("span", { "data-column": `scene-${axis}_m` }, [four(rover.position[axis])]), " m"]),
     );
-    this.draw();
   }
 
   /** Draws once for all that changed since the last picture. */
@@ -277,7 +362,7 @@ export class DriveScene {
       this.stage?.scene.remove(this.root);
       release(this.root);
     }
-    this.root = this.rover = this.mixer = this.action = undefined;
+    this.root = this.rover = this.mixer = this.action = this.trail = undefined;
     this.words.replaceChildren();
   }
 

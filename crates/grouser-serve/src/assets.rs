@@ -24,7 +24,7 @@ pub(crate) const PAGE: Asset =
     Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
 
 /// Everything that it loads.
-pub(crate) static ASSETS: [Asset; 26] = [
+pub(crate) static ASSETS: [Asset; 27] = [
     asset!("page.css", "text/css; charset=utf-8"),
     asset!("main.js", SCRIPT),
     asset!("api.js", SCRIPT),
@@ -36,6 +36,7 @@ pub(crate) static ASSETS: [Asset; 26] = [
     asset!("wheel.js", SCRIPT),
     asset!("dial.js", SCRIPT),
     asset!("drive.js", SCRIPT),
+    asset!("hand.js", SCRIPT),
     asset!("scene.js", SCRIPT),
     asset!("three/build/three.core.js", SCRIPT),
     asset!("three/build/three.module.js", SCRIPT),
