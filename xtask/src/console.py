@@ -24,7 +24,7 @@ VIEWS = ("heading", "wheel", "drive", "scene", "hand", "mission", "map", "design
 SEEN = {
     "map": "view=map&at=10,20&from=-35,-35&to=35,35",
     "scene": "view=drive&seen=scene",
-    "hand": "view=drive&mission=by+hand&soil=toyoura",
+    "hand": "view=drive&mission=by+hand&soil=toyoura&seen=scene",
     "mission": "view=drive&mission=switchbacks-15-deg",
     "design": "view=design&belief=nominal",
     "campaigns": "view=campaigns&runs=2000&out=looked",

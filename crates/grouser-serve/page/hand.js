@@ -13,6 +13,8 @@ import { about as aboutRover } from "./heading.js";
 export const BY_HAND = "by hand";
 /** Time between two steps [s]: of the clock on the wall, and of the rover at the pace of 1. */
 const STEP = 0.1;
+/** The weight of the last step in the average of how long they take. */
+const SMOOTH = 0.2;
 /** The shortest step [s]. */
 const LEAST = 0.01;
 /** Seconds of the rover in one second. */
@@ -76,6 +78,8 @@ export class HandDrive extends DriveAnswer {
     this.asked = "";
     this.isGoing = false;
     this.drawnAt = 0;
+    /** How long a step takes, on the average of the last ones [s]. */
+    this.took = 0;
     /** Where the last scene has its ground: x and y [m]. */
     this.middle = [0, 0];
     /** @type {AbortController} */
@@ -232,9 +236,11 @@ export class HandDrive extends DriveAnswer {
       failed = await this.step(STEP * this.pace, this.isFar()) || undefined;
       const took = (performance.now() - began) / 1000;
       await new Promise((resolve) => setTimeout(resolve, 1000 * Math.max(0, STEP - took)));
-      this.rate.textContent = took > 1.2 * STEP ? `at ${four(Number((STEP * this.pace / took).toPrecision(2)))} times real time: the computer needs longer` : "";
+      this.took += SMOOTH * (took - this.took);
+      this.rate.textContent = this.took > 1.2 * STEP ? `at ${four(Number((STEP * this.pace / this.took).toPrecision(2)))} times real time: the computer needs longer` : "";
     }
     this.isGoing = false;
+    this.took = 0;
     if (steps !== this.steps) {
       if (this.held.size) this.go();
       return;
