@@ -62,11 +62,7 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let limits = Limits::default();
     let of_data =
         |error: measurements::MeasurementError| Refusal::of_key("data", error.to_string());
-    let preset = measurements::Source::preset(&data);
-    let bytes = match &preset {
-        Some(rows) => rows.bytes(limits).map_err(of_data)?,
-        None => Cow::Owned(file(console, &data, limits)?),
-    };
+    let bytes = bytes_of(console, &data, limits)?;
     let wheel = Some(parts.wheel().to_owned());
     let choice = Choice { conditions: conditions.clone(), wheel, limits };
     let measured = measurements::read_from(&data, &*bytes, &choice).map_err(of_data)?;
@@ -110,11 +106,15 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     }))
 }
 
-/// The bytes of a file of measurements in the folder.
-pub(super) fn file(console: &Console, name: &str, limits: Limits) -> Result<Vec<u8>, Refusal> {
+/// The rows of a data set that comes with Grouser, or of a file of measurements in the folder.
+pub(super) fn bytes_of(console: &Console, name: &str, limits: Limits) -> Result<Vec<u8>, Refusal> {
+    let refused = |problem: String| Refusal::of_key("data", problem);
+    if let Some(preset) = measurements::Source::preset(name) {
+        return preset.bytes(limits).map(Cow::into_owned).map_err(|it| refused(it.to_string()));
+    }
     let folder = &console.folder;
     let bytes = folder.find_map(name).and_then(|path| folder.read(&path, limits.bytes()));
-    bytes.map_err(|problem| Refusal::of_key("data", problem.to_string()))
+    bytes.map_err(|problem| refused(problem.to_string()))
 }
 
 pub(super) fn parsed<T>(

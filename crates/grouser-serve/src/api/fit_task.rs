@@ -1,34 +1,42 @@
 //! What a fit may be about: `data-sets`, with the wheels and soils that their documents name and what
 //! some of them lack, and `fit-task`, the trials of one of them.
 
-use std::borrow::Cow;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
 use grouser::document::columns::{
-    self, DRAWBAR_PULL, LOAD, SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TORQUE,
+    Column, DRAWBAR_PULL, LOAD, SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TORQUE,
 };
 use grouser::document::measurements::wheel_tests::{Quantity, Trial};
 use grouser::document::measurements::{self, Choice, Condition, Limits, MeasurementError};
+use grouser::document::table::Table;
 use grouser::document::{
     self, DataSetCase, Kind, LoadedDataSet, Overrides, Preset, Source, json, read_data_set,
 };
 use serde_json::{Value, json};
 
 use super::fields::AskedFields;
-use super::fit::{file, parsed};
+use super::fit::{bytes_of, parsed};
 use crate::asked::Question;
 use crate::console::Console;
 use crate::refusal::Refusal;
 
-/// What is read of a trial.
-const READINGS: [(columns::Quantity, Quantity); 4] = [
-    (DRAWBAR_PULL, Quantity::DrawbarPull),
-    (SIDE_FORCE, Quantity::SideForce),
-    (SINKAGE, Quantity::Sinkage),
-    (TORQUE, Quantity::Torque),
+/// What was measured in a trial.
+const TRIAL: [Column<Trial>; 7] = [
+    SLIP_RATIO.number("Slip ratio", |it| it.slip.ratio),
+    SLIP_ANGLE.number("Slip angle", |it| it.slip.angle),
+    LOAD.number("Load on the wheel", |it| it.load),
+    DRAWBAR_PULL.maybe("Drawbar pull", |it| read(it, Quantity::DrawbarPull)),
+    SIDE_FORCE.maybe("Side force", |it| read(it, Quantity::SideForce)),
+    SINKAGE.maybe("Sinkage", |it| read(it, Quantity::Sinkage)),
+    TORQUE.maybe("Torque", |it| read(it, Quantity::Torque)),
 ];
+
+fn read(trial: &Trial, quantity: Quantity) -> Option<f64> {
+    trial.readings[quantity].map(|reading| reading.value)
+}
+
 /// Bytes of a file that are looked at for what it lacks: its first lines.
 const HEAD: u64 = 64 << 10;
 
@@ -119,33 +127,18 @@ pub(super) fn task(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let conditions = parsed("where", &given, Condition::parse)?;
     let choice = Choice { conditions, wheel, limits: Limits::default() };
     let of_data = |error: MeasurementError| Refusal::of_key("data", error.to_string());
-    let bytes = match measurements::Source::preset(&data) {
-        Some(rows) => Cow::Owned(rows.bytes(choice.limits).map_err(of_data)?.into_owned()),
-        None => Cow::<[u8]>::Owned(file(console, &data, choice.limits)?),
-    };
+    let bytes = bytes_of(console, &data, choice.limits)?;
     let measured = measurements::read_from(&data, &*bytes, &choice).map_err(of_data)?;
     Ok(Question::new(move |_, send| {
-        let trials = measured.tests.trials.iter().zip(&measured.lines);
+        let mut rows = json!(Table::of(&TRIAL, &measured.tests.trials));
+        for (row, line) in rows.as_array_mut().into_iter().flatten().zip(&measured.lines) {
+            row["line"] = json!(line);
+        }
         send(json::line(&json!({
             "schema": "grouser.fit-task.v1",
-            "rows": trials.map(trial_row).collect::<Vec<_>>(),
+            "rows": rows,
             "notes": measured.notes,
         })));
         Ok(())
     }))
-}
-
-/// A trial with the line of its file.
-fn trial_row((trial, line): (&Trial, &u64)) -> Value {
-    let mut row = json!({
-        "line": line,
-        SLIP_RATIO.name: trial.slip.ratio,
-        SLIP_ANGLE.name: SLIP_ANGLE.unit.from_si(trial.slip.angle),
-        LOAD.name: trial.load,
-    });
-    for (column, quantity) in READINGS {
-        let reading = trial.readings[quantity];
-        row[column.name] = json!(reading.map(|reading| column.unit.from_si(reading.value)));
-    }
-    row
 }
