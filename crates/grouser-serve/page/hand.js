@@ -80,8 +80,8 @@ export class HandDrive extends DriveAnswer {
     this.drawnAt = 0;
     /** How long a step takes, on the average of the last ones [s]. */
     this.took = 0;
-    /** Where the last scene has its ground: x and y [m]. */
-    this.middle = [0, 0];
+    /** Where the last scene has its ground: x and y [m]. @type {[number, number] | undefined} */
+    this.middle = undefined;
     /** @type {AbortController} */
     this.steps = new AbortController();
     this.pace = PACES[0] ?? 1;
@@ -199,6 +199,7 @@ export class HandDrive extends DriveAnswer {
     const asked = JSON.stringify(this.question());
     const isOther = asked !== this.asked || !this.state;
     this.asked = asked;
+    this.middle = undefined;
     this.look(session.seen);
     if (isOther) this.begin();
     else this.seenAnew();
@@ -258,11 +259,11 @@ export class HandDrive extends DriveAnswer {
     return this.held.size > 0 || Math.hypot(last.forward_speed_m_s, last.lateral_speed_m_s) > speed || Math.abs(last.yaw_rate_deg_s) > rate;
   }
 
-  /** Whether the scene's ground is left behind. */
+  /** Whether there is no scene yet, or its ground is left behind. */
   isFar() {
     const last = this.run?.samples.at(-1);
-    const [x = 0, y = 0] = this.middle;
-    return this.isScene && Boolean(last) && Math.hypot(last.x_m - x, last.y_m - y) > GROUND;
+    if (!this.isScene || !last) return false;
+    return !this.middle || Math.hypot(last.x_m - this.middle[0], last.y_m - this.middle[1]) > GROUND;
   }
 
   /** The speeds of the sides, left and right [m/s]. */
