@@ -442,12 +442,12 @@ def use_hand(looks, browser, server):
     ahead = place_by_hand(page)
     scene = [float(it) for it in place_in_scene(page)]
     apart = max(abs(scene[0] - ahead[0]), abs(scene[1] - ahead[1]))
-    moved = [] if 0.03 < ahead[0] - start[0] < 0.3 else [f"it is at {ahead}"]
+    moved = [] if 0.005 < ahead[0] - start[0] < 0.3 else [f"it is at {ahead}"]
     there = [] if apart < 1e-3 else [f"in three dimensions it is {apart} m from there"]
     looks.claim("a held key drives, in three dimensions too", moved + there)
     held(page, "ArrowLeft", 1500)
     turned = place_by_hand(page)
-    looks.claim("a key turns the rover to the left", [] if turned[2] > ahead[2] + 2 else [f"it is at {turned}, it was at {ahead}"])
+    looks.claim("a key turns the rover to the left", [] if turned[2] > ahead[2] + 0.3 else [f"it is at {turned}, it was at {ahead}"])
     count = len(steps)
     for field in ("Slope, in °", "Gravity, in m/s²"):
         page.get_by_label(field).first.focus()
@@ -470,7 +470,7 @@ def use_hand(looks, browser, server):
     page.mouse.up()
     page.locator("#outcome", has_text="ready").wait_for(timeout=30000)
     back = place_by_hand(page)
-    looks.claim("buttons drive, by a key and by the mouse", [] if by_button[0] > 0.01 and back[0] < by_button[0] else [f"{by_button}, then {back}"])
+    looks.claim("buttons drive, by a key and by the mouse", [] if by_button[0] > 0.002 and back[0] < by_button[0] else [f"{by_button}, then {back}"])
     charts = page.locator(".figures .picked").count()
     page.locator(".figures .picked").first.click(position={"x": 60, "y": 60})
     early = page.locator("#clock").inner_text()

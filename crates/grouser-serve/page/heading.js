@@ -38,7 +38,7 @@ export function about(session) {
 export function ruleOf(rule) {
   if (typeof rule?.["go_slip_ratio"] !== "number") return null;
   const percent = (/** @type {string} */ key) => `${four(100 * rule[key])} %`;
-  return element("p", { class: "setup", "data-column": "rule" }, [
+  return element("p", { class: "rule", "data-column": "rule" }, [
     `Go: a heading holds with a slip ratio up to ${four(rule["go_slip_ratio"])} in at least ${percent("go_probability")} of the samples, and the drift stays below ${four(rule["go_drift_m_per_m"])} m/m. `,
     `No-go: in at least ${percent("no_go_probability")} none holds with one up to ${four(rule["no_go_slip_ratio"])}. Between them: caution.`,
   ]);
