@@ -187,9 +187,8 @@ def over_hills(simulation: str, actions: np.ndarray) -> float:
     """The same of rovers on a site with craters, each from a place of its own."""
     site = gr.Terrain.lunar(size_m=60.0, cell_size_m=0.2, seed=1)
     starts = np.random.default_rng(2).uniform(-15.0, 15.0, (ENVIRONMENTS, 2))
-    scenarios = [
-        gr.Scenario(simulation=simulation, terrain=site, start_m=list(start)) for start in starts
-    ]
+    base = gr.Scenario(simulation=simulation, terrain=site)
+    scenarios = [base.replace(terrain={"start_m": place}) for place in starts.tolist()]
     batch = gr.RunBatch(scenarios, commands="rim_speed_m_s")
     sides = np.array([-1.0, 1.0, 1.0, -1.0])
     start = time.perf_counter()

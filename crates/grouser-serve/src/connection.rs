@@ -1,11 +1,12 @@
 //! Connections: a bounded number, each with little time to ask and to read its answer.
 
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::fmt::Write as _;
 use std::future::{Future as _, poll_fn};
 use std::io;
 use std::pin::{Pin, pin};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::task::{Context, Poll};
 use std::time::Duration;
 
@@ -15,7 +16,7 @@ use hyper::service::service_fn;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use tokio::io::{AsyncRead, AsyncWrite, Interest, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::Semaphore;
+use tokio::sync::{Notify, Semaphore};
 use tokio::time::{Instant, Sleep, sleep, timeout};
 
 use crate::console::Console;
@@ -36,6 +37,7 @@ pub(crate) async fn accept_all(
     should_end: impl Fn() -> bool,
 ) {
     let places = Arc::new(Semaphore::new(console.limits.connections));
+    let silent = Arc::new(Silent::default());
     while !should_end() {
         let stream = match timeout(look, listener.accept()).await {
             Err(_) => continue,
@@ -46,26 +48,71 @@ pub(crate) async fn accept_all(
                 continue;
             }
         };
-        match Arc::clone(&places).try_acquire_owned() {
-            Ok(place) => {
-                let console = Arc::clone(console);
+        let mut place = Arc::clone(&places).try_acquire_owned().ok();
+        if place.is_none() && silent.end_oldest() {
+            place =
+                timeout(look, Arc::clone(&places).acquire_owned()).await.ok().and_then(Result::ok);
+        }
+        match place {
+            Some(place) => {
+                let (console, silent) = (Arc::clone(console), Arc::clone(&silent));
                 drop(tokio::spawn(async move {
-                    serve(stream, &console).await;
+                    serve(stream, &console, &silent).await;
                     drop(place);
                 }));
             }
-            Err(_) => refuse(&stream),
+            None => refuse(&stream),
         }
     }
 }
 
+/// Connections that have asked nothing yet: they make place for one more.
+#[derive(Default)]
+struct Silent(Mutex<Waiting>);
+
+/// By their numbers, the oldest first, what ends each.
+#[derive(Default)]
+struct Waiting {
+    next: u64,
+    ends: BTreeMap<u64, Arc<Notify>>,
+}
+
+impl Silent {
+    /// A connection's number, and what tells it to end.
+    fn enter(&self) -> (u64, Arc<Notify>) {
+        let end = Arc::new(Notify::new());
+        let mut waiting = self.waiting();
+        let number = waiting.next;
+        waiting.next += 1;
+        waiting.ends.insert(number, Arc::clone(&end));
+        (number, end)
+    }
+
+    /// It asks, or has ended.
+    fn leave(&self, number: u64) {
+        self.waiting().ends.remove(&number);
+    }
+
+    /// Tells the oldest to end; whether there is one.
+    fn end_oldest(&self) -> bool {
+        let oldest = self.waiting().ends.pop_first();
+        oldest.inspect(|(_, end)| end.notify_one()).is_some()
+    }
+
+    fn waiting(&self) -> MutexGuard<'_, Waiting> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
 /// Answers the requests of a connection, one after another, until the other side has closed it.
-async fn serve(stream: TcpStream, console: &Arc<Console>) {
+async fn serve(stream: TcpStream, console: &Arc<Console>, silent: &Arc<Silent>) {
     let limits = &console.limits;
     // Lines of an answer are small, and wanted at once.
     drop(stream.set_nodelay(true));
     let Ok([stream, watched]) = twice(stream) else { return };
+    let (number, end) = silent.enter();
     let service = service_fn(|request| {
+        silent.leave(number);
         let console = Arc::clone(console);
         async move { Ok::<_, Infallible>(routes::respond(&console, request).await) }
     });
@@ -75,16 +122,32 @@ async fn serve(stream: TcpStream, console: &Arc<Console>) {
         .max_buf_size(HEAD)
         .max_headers(HEADERS)
         .serve_connection(TokioIo::new(Patient::new(stream, limits)), service);
-    let mut closed = pin!(closed(&watched));
+    let (mut closed, mut to_end) = (pin!(closed(&watched)), pin!(end.notified()));
     let ended = poll_fn(|context| match Pin::new(&mut connection).poll(context) {
-        Poll::Pending => closed.as_mut().poll(context).map(Ok),
-        ended @ Poll::Ready(_) => ended,
+        Poll::Pending if to_end.as_mut().poll(context).is_ready() => Poll::Ready(End::ForAnother),
+        Poll::Pending => closed.as_mut().poll(context).map(|()| End::Closed),
+        Poll::Ready(Err(error)) if error.is_timeout() => Poll::Ready(End::TooLate),
+        Poll::Ready(_) => Poll::Ready(End::Closed),
     });
-    if ended.await.is_err_and(|error| error.is_timeout()) {
-        let stream = connection.into_parts().io.into_inner().stream;
-        let message = "the request did not come in time";
-        let _ = stream.try_write(&bare(StatusCode::REQUEST_TIMEOUT, message));
+    let ended = ended.await;
+    silent.leave(number);
+    let stream = || connection.into_parts().io.into_inner().stream;
+    match ended {
+        End::Closed => {}
+        End::ForAnother => refuse(&stream()),
+        End::TooLate => {
+            let message = "the request did not come in time";
+            let _ = stream().try_write(&bare(StatusCode::REQUEST_TIMEOUT, message));
+        }
     }
+}
+
+/// Why a connection is not served any more.
+enum End {
+    Closed,
+    /// It asked nothing, and another needs its place.
+    ForAnother,
+    TooLate,
 }
 
 /// Two handles of a connection: one is read and written, one watched.

@@ -5,7 +5,8 @@ use std::time::Duration;
 /// The limits of a server.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Connections at a time. One more is refused with 503.
+    /// Connections at a time. For one more the oldest that has asked nothing ends, with 503; where
+    /// all have, it is refused so itself.
     pub connections: usize,
     /// Time for the head of a request, and between two requests on a connection.
     pub head_time: Duration,

@@ -60,12 +60,28 @@ fn half_requests_have_an_end() {
 }
 
 #[test]
-fn a_thousand_connections_are_bounded() {
+fn a_thousand_connections_are_bounded_and_silent_ones_make_place() {
     let server = limited(Limits { connections: 50, ..Limits::default() });
     let mut open: Vec<TcpStream> = (0..1000).map(|_| server.connect()).collect();
     std::thread::sleep(Duration::from_millis(300));
-    let last = open.pop().unwrap();
-    let refused = Reply::read(last);
+    assert_eq!(server.ask("GET", "/", "", "").status, 200);
+    let refused = Reply::read(open.remove(0));
+    assert_eq!(refused.status, 503, "{refused:?}");
+}
+
+/// Who has begun to ask keeps the place.
+#[test]
+fn one_connection_too_many_is_refused() {
+    let server = limited(Limits { connections: 3, ..Limits::default() });
+    let open: Vec<TcpStream> = (0..3)
+        .map(|_| {
+            let mut stream = server.connect();
+            stream.write_all((head(&server, "Content-Length: 100") + "{").as_bytes()).unwrap();
+            stream
+        })
+        .collect();
+    std::thread::sleep(Duration::from_millis(300));
+    let refused = Reply::read(server.connect());
     assert_eq!(refused.status, 503, "{refused:?}");
     drop(open);
     // Their places are free again.
