@@ -12,8 +12,8 @@ use tokio::sync::{mpsc, oneshot};
 
 use crate::asked::Read;
 use crate::body::{AnswerLines, ReplyBody, SentLine};
-use crate::console::Console;
 use crate::refusal::Refusal;
+use crate::shared::Shared;
 
 /// Lines that wait for a reader.
 const AHEAD: usize = 4;
@@ -22,21 +22,21 @@ const LINES: HeaderValue = HeaderValue::from_static("application/x-ndjson");
 
 /// The answer to a question, once its first line is there; or why there is none.
 pub(crate) async fn answer(
-    console: &Arc<Console>,
+    shared: &Arc<Shared>,
     read: Read,
     body: Bytes,
 ) -> Result<Response<ReplyBody>, Refusal> {
     // From here on whoever hangs up is not asking any more.
-    let (asking, go_on) = console.runs.asking();
-    let place = Arc::new(console.runs.place()?);
+    let (asking, go_on) = shared.runs.asking();
+    let place = Arc::new(shared.runs.place()?);
     let (send, mut rest) = mpsc::channel::<SentLine>(AHEAD);
     let (fail, failed) = oneshot::channel();
-    let console = Arc::clone(console);
+    let shared = Arc::clone(shared);
     let held = Arc::clone(&place);
     drop(tokio::task::spawn_blocking(move || {
         let (has_begun, is_full) = (AtomicBool::new(false), AtomicBool::new(false));
         let sent = |line: String| {
-            let has_room = line.len() <= console.limits.answer_bytes as usize;
+            let has_room = line.len() <= shared.limits.answer_bytes as usize;
             let room = if has_room { go_on.room(line.len()) } else { None };
             is_full.store(room.is_none(), Ordering::Relaxed);
             room.is_some() && {
@@ -46,14 +46,11 @@ pub(crate) async fn answer(
         };
         let computed = guarded(|| {
             let turn = go_on.reading_turn().ok_or_else(Refusal::stopped)?;
-            let question = read(&console, &body)?;
+            let question = read(&shared.console, &body)?;
             drop(turn);
             question.answer(&go_on, &sent)
         });
-        let computed = computed.unwrap_or_else(|panic| {
-            let message = format!("this is a fault of ours: {panic}");
-            Err(Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, message))
-        });
+        let computed = computed.unwrap_or_else(|panic| Err(Refusal::fault(panic)));
         let full = || {
             let message = "the answer has no room beside those that wait for slow readers";
             Err(Refusal::new(StatusCode::SERVICE_UNAVAILABLE, message))

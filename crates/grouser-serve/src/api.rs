@@ -1,29 +1,42 @@
 //! What the page, and other programs, may ask. Each question is JSON in the words of documents and
 //! columns; its answer is lines of JSON.
 
-mod campaign;
 mod command;
-mod design;
 mod document;
 mod drawing;
-mod drive_step;
 mod fields;
-mod fit;
-mod fit_task;
-mod ground;
 mod heading;
 mod heading_map;
 mod lists;
-mod map;
-mod mission;
 mod parts;
-mod place;
-mod replay;
-mod route;
 mod rule;
 mod staged;
-mod traverse;
 mod wheel_test;
+
+#[cfg(feature = "server")]
+mod campaign;
+#[cfg(feature = "server")]
+mod design;
+#[cfg(feature = "server")]
+mod drive_step;
+#[cfg(feature = "server")]
+mod fit;
+#[cfg(feature = "server")]
+mod fit_task;
+#[cfg(feature = "server")]
+mod ground;
+#[cfg(feature = "server")]
+mod map;
+#[cfg(feature = "server")]
+mod mission;
+#[cfg(feature = "server")]
+mod place;
+#[cfg(feature = "server")]
+mod replay;
+#[cfg(feature = "server")]
+mod route;
+#[cfg(feature = "server")]
+mod traverse;
 
 use crate::asked::Read;
 use crate::console::Console;
@@ -33,10 +46,18 @@ pub(crate) type List = fn(&Console) -> String;
 
 /// The questions, by their paths below `/api/`: those of answers have the names of the program's
 /// commands.
-pub(crate) static QUESTIONS: [(&str, Read); 21] = [
+pub(crate) static QUESTIONS: &[(&str, Read)] = &[
     ("heading", heading::read),
     ("heading-map", heading_map::read),
     ("wheel-test", wheel_test::read),
+    ("wheel-drawing", drawing::read),
+    ("scenario", document::scenario),
+    ("stand", document::stand),
+];
+
+/// Those that open files of a folder, or take long.
+#[cfg(feature = "server")]
+pub(crate) static OF_FOLDERS: &[(&str, Read)] = &[
     ("map", map::read),
     ("map-place", place::read),
     ("route", route::read),
@@ -52,16 +73,15 @@ pub(crate) static QUESTIONS: [(&str, Read); 21] = [
     ("replay", replay::read),
     ("mission", mission::read),
     ("mission-task", mission::task),
-    ("wheel-drawing", drawing::read),
-    ("scenario", document::scenario),
-    ("stand", document::stand),
 ];
 
 /// What there is to choose from, by their paths below `/api/`.
-pub(crate) static LISTS: [(&str, List); 5] = [
+pub(crate) static LISTS: &[(&str, List)] = &[
     ("presets", lists::presets),
     ("documents", lists::documents),
     ("files", lists::files),
+    #[cfg(feature = "server")]
     ("campaigns", campaign::list),
+    #[cfg(feature = "server")]
     ("data-sets", fit_task::data_sets),
 ];

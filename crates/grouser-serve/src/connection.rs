@@ -19,10 +19,10 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::{Notify, Semaphore};
 use tokio::time::{Instant, Sleep, sleep, timeout};
 
-use crate::console::Console;
 use crate::limits::Limits;
 use crate::refusal::Refusal;
 use crate::routes::{self, PROTECTION};
+use crate::shared::Shared;
 
 /// Bytes of the head of a request.
 const HEAD: usize = 16 << 10;
@@ -32,11 +32,11 @@ const HEADERS: usize = 64;
 /// Takes connections until it is to end.
 pub(crate) async fn accept_all(
     listener: &TcpListener,
-    console: &Arc<Console>,
+    shared: &Arc<Shared>,
     look: Duration,
     should_end: impl Fn() -> bool,
 ) {
-    let places = Arc::new(Semaphore::new(console.limits.connections));
+    let places = Arc::new(Semaphore::new(shared.limits.connections));
     let silent = Arc::new(Silent::default());
     while !should_end() {
         let stream = match timeout(look, listener.accept()).await {
@@ -55,9 +55,9 @@ pub(crate) async fn accept_all(
         }
         match place {
             Some(place) => {
-                let (console, silent) = (Arc::clone(console), Arc::clone(&silent));
+                let (shared, silent) = (Arc::clone(shared), Arc::clone(&silent));
                 drop(tokio::spawn(async move {
-                    serve(stream, &console, &silent).await;
+                    serve(stream, &shared, &silent).await;
                     drop(place);
                 }));
             }
@@ -105,16 +105,16 @@ impl Silent {
 }
 
 /// Answers the requests of a connection, one after another, until the other side has closed it.
-async fn serve(stream: TcpStream, console: &Arc<Console>, silent: &Arc<Silent>) {
-    let limits = &console.limits;
+async fn serve(stream: TcpStream, shared: &Arc<Shared>, silent: &Arc<Silent>) {
+    let limits = &shared.limits;
     // Lines of an answer are small, and wanted at once.
     drop(stream.set_nodelay(true));
     let Ok([stream, watched]) = twice(stream) else { return };
     let (number, end) = silent.enter();
     let service = service_fn(|request| {
         silent.leave(number);
-        let console = Arc::clone(console);
-        async move { Ok::<_, Infallible>(routes::respond(&console, request).await) }
+        let shared = Arc::clone(shared);
+        async move { Ok::<_, Infallible>(routes::respond(&shared, request).await) }
     });
     let mut connection = http1::Builder::new()
         .timer(TokioTimer::new())

@@ -1,23 +1,13 @@
-//! What all connections share.
+//! What questions are asked of.
 
-use std::sync::Arc;
-
-use tokio::sync::Semaphore;
-
-use crate::access::Access;
 use crate::folder::ServedFolder;
-use crate::limits::Limits;
+#[cfg(feature = "server")]
 use crate::maps::KeptOfMaps;
-use crate::runs::RunPlaces;
 
-/// What all connections share.
+/// What questions are asked of.
 pub(crate) struct Console {
-    pub(crate) access: Access,
     pub(crate) folder: ServedFolder,
-    pub(crate) runs: RunPlaces,
-    /// One list is made at a time: files are read for it.
-    pub(crate) lists: Arc<Semaphore>,
     /// What was computed of maps.
+    #[cfg(feature = "server")]
     pub(crate) kept: KeptOfMaps,
-    pub(crate) limits: Limits,
 }

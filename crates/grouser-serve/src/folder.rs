@@ -43,6 +43,12 @@ const DEEPEST: usize = 3;
 const MOST: usize = 2000;
 
 impl ServedFolder {
+    /// No folder: there are presets alone.
+    #[cfg(not(feature = "server"))]
+    pub(crate) fn none() -> Self {
+        Self(None)
+    }
+
     /// * `path`: without one there are presets alone
     pub(crate) fn open(path: Option<&Path>) -> io::Result<Self> {
         let Some(path) = path else { return Ok(Self(None)) };

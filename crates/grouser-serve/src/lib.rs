@@ -9,6 +9,10 @@
 //! keeps what was computed of maps, `progress` says how far a study is. `browser_page` leads a browser
 //! here. `api` makes questions of JSON; `page/` has the page.
 //!
+//! Without the feature `server` there are the questions about presets alone, and `exported` has them
+//! as functions of WebAssembly: the engine of a page without a server, whose scripts are in
+//! `without-server/`.
+//!
 //! It is made on `hyper` itself. What a router and layers of middleware would add are a dozen
 //! paths and one order of checks, which is best read as one function; and the limits of
 //! connections are `hyper`'s own.
@@ -22,26 +26,52 @@
 //! # Ok::<(), grouser_serve::ServeError>(())
 //! ```
 
-mod access;
-mod answering;
+#![cfg_attr(
+    not(feature = "server"),
+    expect(dead_code, reason = "what the server and its questions share with the others")
+)]
+
 mod api;
 mod asked;
-mod assets;
-mod body;
-mod browser_page;
-mod connection;
 mod console;
+#[cfg(not(feature = "server"))]
+mod exported;
 mod folder;
-mod kept;
-mod limits;
-mod maps;
 mod progress;
 mod refusal;
+
+#[cfg(feature = "server")]
+mod access;
+#[cfg(feature = "server")]
+mod answering;
+#[cfg(feature = "server")]
+mod assets;
+#[cfg(feature = "server")]
+mod body;
+#[cfg(feature = "server")]
+mod browser_page;
+#[cfg(feature = "server")]
+mod connection;
+#[cfg(feature = "server")]
+mod kept;
+#[cfg(feature = "server")]
+mod limits;
+#[cfg(feature = "server")]
+mod maps;
+#[cfg(feature = "server")]
 mod routes;
+#[cfg(feature = "server")]
 mod runs;
+#[cfg(feature = "server")]
 mod server;
+#[cfg(feature = "server")]
+mod shared;
+#[cfg(feature = "server")]
 mod token;
 
+#[cfg(feature = "server")]
 pub use browser_page::BrowserPage;
+#[cfg(feature = "server")]
 pub use limits::Limits;
+#[cfg(feature = "server")]
 pub use server::{ServeError, Server, Settings};

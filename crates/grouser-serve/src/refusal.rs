@@ -1,6 +1,8 @@
 //! Why a request is not answered: a status, and a sentence as JSON.
 
-use hyper::StatusCode;
+use std::fmt::Display;
+
+use http::StatusCode;
 use serde_json::{Value, json};
 
 /// A request that is not answered.
@@ -31,6 +33,11 @@ impl Refusal {
         let message = "it was stopped before its end: it took too long, or the server ends";
         Self::new(StatusCode::SERVICE_UNAVAILABLE, message)
             .with_hint("ask for fewer samples, or rows")
+    }
+
+    /// A panic, with its message.
+    pub(crate) fn fault(panic: impl Display) -> Self {
+        Self::new(StatusCode::INTERNAL_SERVER_ERROR, format!("this is a fault of ours: {panic}"))
     }
 
     /// The same with what helps.

@@ -17,8 +17,8 @@ use crate::api::{self, List};
 use crate::asked::Read;
 use crate::assets::{ASSETS, Asset, LOCKED, PAGE};
 use crate::body::ReplyBody;
-use crate::console::Console;
 use crate::refusal::Refusal;
+use crate::shared::Shared;
 
 /// The type of JSON.
 const JSON: HeaderValue = HeaderValue::from_static("application/json");
@@ -34,11 +34,11 @@ enum PathTarget {
 
 /// The response to a request.
 pub(crate) async fn respond(
-    console: &Arc<Console>,
+    shared: &Arc<Shared>,
     request: Request<Incoming>,
 ) -> Response<ReplyBody> {
     let is_visit = is_visit(&request);
-    let mut response = match answer(console, request).await {
+    let mut response = match answer(shared, request).await {
         Ok(response) => response,
         Err(refusal) if is_visit && refusal.status == StatusCode::UNAUTHORIZED => locked(),
         Err(refusal) => refused(&refusal),
@@ -70,11 +70,11 @@ pub(crate) const PROTECTION: [(HeaderName, &str); 8] = [
 ];
 
 async fn answer(
-    console: &Arc<Console>,
+    shared: &Arc<Shared>,
     request: Request<Incoming>,
 ) -> Result<Response<ReplyBody>, Refusal> {
-    console.access.check_host(&request)?;
-    console.access.check_token(&request)?;
+    shared.access.check_host(&request)?;
+    shared.access.check_token(&request)?;
     let route = find(request.uri().path()).ok_or_else(|| {
         let message = format!("there is nothing at {}", request.uri().path());
         Refusal::new(StatusCode::NOT_FOUND, message)
@@ -91,14 +91,14 @@ async fn answer(
         return Err(Refusal::new(StatusCode::METHOD_NOT_ALLOWED, message));
     }
     match route {
-        PathTarget::File(asset) => Ok(file(console, asset)),
+        PathTarget::File(asset) => Ok(file(shared, asset)),
         PathTarget::List(list) => {
             // Files are read for it, which others need not wait for.
             let failed = || Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no list");
-            let place = Arc::clone(&console.lists).acquire_owned().await.map_err(|_| failed())?;
-            let console = Arc::clone(console);
+            let place = Arc::clone(&shared.lists).acquire_owned().await.map_err(|_| failed())?;
+            let shared = Arc::clone(shared);
             let made = move || {
-                let list = list(&console);
+                let list = list(&shared.console);
                 drop(place);
                 list
             };
@@ -106,9 +106,9 @@ async fn answer(
             Ok(whole(JSON, listed?))
         }
         PathTarget::Question(read) => {
-            console.access.check_origin(request.headers())?;
-            let body = json_of(console, request).await?;
-            answering::answer(console, read, body).await
+            shared.access.check_origin(request.headers())?;
+            let body = json_of(shared, request).await?;
+            answering::answer(shared, read, body).await
         }
     }
 }
@@ -124,15 +124,16 @@ fn find(path: &str) -> Option<PathTarget> {
     if let Some((_, list)) = api::LISTS.iter().find(|(own, _)| *own == name) {
         return Some(PathTarget::List(*list));
     }
-    let (_, read) = api::QUESTIONS.iter().find(|(own, _)| *own == name)?;
+    let mut questions = api::QUESTIONS.iter().chain(api::OF_FOLDERS);
+    let (_, read) = questions.find(|(own, _)| *own == name)?;
     Some(PathTarget::Question(*read))
 }
 
-fn file(console: &Console, asset: &Asset) -> Response<ReplyBody> {
+fn file(shared: &Shared, asset: &Asset) -> Response<ReplyBody> {
     let mut response = whole(HeaderValue::from_static(asset.kind), asset.content);
     if asset.path == PAGE.path {
         // Whoever gets here has the token.
-        let cookie = HeaderValue::from_str(&console.access.set_cookie());
+        let cookie = HeaderValue::from_str(&shared.access.set_cookie());
         response.headers_mut().extend(cookie.ok().map(|cookie| (SET_COOKIE, cookie)));
     }
     response
@@ -178,8 +179,8 @@ fn refused(refusal: &Refusal) -> Response<ReplyBody> {
 }
 
 /// The body of a question, if it is small and quick.
-async fn json_of(console: &Console, request: Request<Incoming>) -> Result<Bytes, Refusal> {
-    let limits = &console.limits;
+async fn json_of(shared: &Shared, request: Request<Incoming>) -> Result<Bytes, Refusal> {
+    let limits = &shared.limits;
     let kind = request.headers().get(CONTENT_TYPE).and_then(|kind| kind.to_str().ok());
     // A form of another page cannot be of this type.
     let is_json = kind.is_some_and(|kind| {

@@ -1,12 +1,14 @@
 //! Computations: few at a time, each with an end, and stopped where nobody waits for its answer.
 
+use std::any::Any;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use hyper::StatusCode;
+use http::StatusCode;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 
+use crate::asked::GoOn;
 use crate::limits::Limits;
 use crate::refusal::Refusal;
 
@@ -33,7 +35,7 @@ pub(crate) struct Waiter(Arc<AtomicBool>);
 
 /// What a computation asks whether to go on.
 #[derive(Clone)]
-pub(crate) struct GoOn {
+pub(crate) struct Awaited {
     has_gone: Arc<AtomicBool>,
     has_ended: Arc<AtomicBool>,
     until: Instant,
@@ -73,10 +75,10 @@ impl RunPlaces {
     }
 
     /// Somebody who asks, and what the computation asks.
-    pub(crate) fn asking(&self) -> (Waiter, GoOn) {
+    pub(crate) fn asking(&self) -> (Waiter, Awaited) {
         let has_gone = Arc::new(AtomicBool::new(false));
         let has_ended = Arc::clone(&self.has_ended);
-        let go_on = GoOn {
+        let go_on = Awaited {
             has_gone: Arc::clone(&has_gone),
             has_ended,
             until: Instant::now() + self.time,
@@ -99,26 +101,24 @@ impl Drop for Waiter {
     }
 }
 
-impl GoOn {
-    /// What a study goes by that shows its progress: it ends with who watches it, or the server.
-    pub(crate) fn of_study(&self) -> Self {
-        Self { until: self.until + STUDY, ..self.clone() }
-    }
-
-    /// Whether to go on.
-    pub(crate) fn is_on(&self) -> bool {
+impl GoOn for Awaited {
+    fn is_on(&self) -> bool {
         !self.has_gone.load(Ordering::Relaxed)
             && !self.has_ended.load(Ordering::Relaxed)
             && Instant::now() < self.until
     }
 
-    /// Waits for the turn of what takes long, which is over when the result is dropped; nothing if
-    /// nobody waits for the answer any more. What is quick needs no turn, so that it is not behind
-    /// what takes long.
-    pub(crate) fn turn(&self) -> Option<OwnedSemaphorePermit> {
-        self.permits(&self.computing, 1)
+    /// It ends with who watches it, or the server.
+    fn of_study(&self) -> Box<dyn GoOn> {
+        Box::new(Self { until: self.until + STUDY, ..self.clone() })
     }
 
+    fn turn(&self) -> Option<Box<dyn Any>> {
+        self.permits(&self.computing, 1).map(|permit| Box::new(permit) as Box<dyn Any>)
+    }
+}
+
+impl Awaited {
     /// Waits for the turn of reading a question.
     pub(crate) fn reading_turn(&self) -> Option<OwnedSemaphorePermit> {
         self.permits(&self.reading, 1)

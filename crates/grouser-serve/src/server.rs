@@ -17,6 +17,7 @@ use crate::folder::ServedFolder;
 use crate::limits::Limits;
 use crate::maps::KeptOfMaps;
 use crate::runs::RunPlaces;
+use crate::shared::Shared;
 use crate::token::Token;
 
 /// What a server serves, and to whom.
@@ -77,7 +78,7 @@ pub enum ServeError {
 pub struct Server {
     listener: TcpListener,
     runtime: Runtime,
-    console: Arc<Console>,
+    shared: Arc<Shared>,
     address: SocketAddr,
 }
 
@@ -109,21 +110,20 @@ impl Server {
             .max_blocking_threads(settings.limits.runs + settings.limits.waiting + 2)
             .build()
             .map_err(ServeError::System)?;
-        let console = Console {
+        let shared = Shared {
             access: Access::new(secrets, address, &settings.hosts),
-            folder,
+            console: Console { folder, kept: KeptOfMaps::default() },
             runs: RunPlaces::new(&settings.limits),
             lists: Arc::new(Semaphore::new(1)),
-            kept: KeptOfMaps::default(),
             limits: settings.limits,
         };
-        Ok(Self { listener, runtime, console: Arc::new(console), address })
+        Ok(Self { listener, runtime, shared: Arc::new(shared), address })
     }
 
     /// The address to open first. It has the token: who knows it may ask.
     #[must_use]
     pub fn address(&self) -> String {
-        self.console.access.url()
+        self.shared.access.url()
     }
 
     /// A page in a private file that leads a browser to [`address`](Self::address).
@@ -147,14 +147,14 @@ impl Server {
     /// # Errors
     /// [`ServeError`] where the system has no events.
     pub fn run(self, should_end: impl Fn() -> bool) -> Result<(), ServeError> {
-        let Self { listener, runtime, console, .. } = self;
+        let Self { listener, runtime, shared, .. } = self;
         let serve = async {
             let listener = tokio::net::TcpListener::from_std(listener)?;
-            connection::accept_all(&listener, &console, LOOK, should_end).await;
+            connection::accept_all(&listener, &shared, LOOK, should_end).await;
             Ok(())
         };
         let served = runtime.block_on(serve).map_err(ServeError::System);
-        console.runs.end();
+        shared.runs.end();
         runtime.shutdown_timeout(END);
         served
     }

@@ -11,7 +11,7 @@ use grouser_draw::chart::Drawable as _;
 use grouser_store::{
     Finished, Folder, Manifest, Results, Statistics, StoreError, Study, compute, figures,
 };
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::{Value, json};
 
 use super::command::CommandLine;

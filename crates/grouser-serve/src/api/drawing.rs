@@ -5,7 +5,7 @@ use grouser::document::columns::SLIP_ANGLE;
 use grouser::document::json;
 use grouser::document::study::{LOAD_N, SLIP_ANGLE_DEG};
 use grouser_draw::drawings::{self, WheelInSoil};
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::json;
 
 use super::fields::AskedFields;

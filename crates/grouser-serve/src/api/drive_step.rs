@@ -8,16 +8,15 @@ use grouser::simulation::{
 };
 use grouser::terrain::Shape;
 use grouser_draw::{base64, from_base64, title_of};
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::{Value, json};
 
 use super::fields::AskedFields;
 use super::parts::{RunSettings, ScenarioParts};
 use super::staged::scene_of;
-use crate::asked::Question;
+use crate::asked::{GoOn, Question};
 use crate::console::Console;
 use crate::refusal::Refusal;
-use crate::runs::GoOn;
 
 const STATE: &str = "state";
 const RIM_SPEEDS: &str = "rim_speed_m_s";
@@ -125,7 +124,7 @@ fn of_each_wheel(speeds: &[f64], scenario: &Scenario) -> Result<Vec<f64>, Refusa
 }
 
 impl StepAsked {
-    fn answer(&self, go_on: &GoOn) -> Result<Value, Refusal> {
+    fn answer(&self, go_on: &dyn GoOn) -> Result<Value, Refusal> {
         let run = self.run().map_err(failed)?;
         let (run, records) = self.stepped(run, go_on)?;
         let state = [&self.mark.to_le_bytes()[..], &run.state().to_bytes()].concat();
@@ -170,7 +169,7 @@ impl StepAsked {
     }
 
     /// The run after the step, with records on its way, the first of which is its beginning.
-    fn stepped(&self, mut run: Run, go_on: &GoOn) -> Result<(Run, Vec<Record>), Refusal> {
+    fn stepped(&self, mut run: Run, go_on: &dyn GoOn) -> Result<(Run, Vec<Record>), Refusal> {
         let mut records = vec![run.now().clone()];
         let pieces = (self.span / RECORD - 1e-9).ceil().max(1.0);
         let (mut piece, span) = (0.0, self.span / pieces);

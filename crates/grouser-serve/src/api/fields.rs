@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
 use grouser::document::nearest;
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::{Map, Value};
 
 use crate::refusal::Refusal;

@@ -16,18 +16,17 @@ use grouser::document::{FitKey, SAMPLES_FILE, SoilFamily, json};
 use grouser::studies::calibration::{CalibrationError, Observer, PosteriorState, Work};
 use grouser_draw::Slide;
 use grouser_draw::chart::Drawable as _;
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::{Value, json};
 
 use super::command::CommandLine;
 use super::fields::AskedFields;
 use super::parts::{Stand, StandParts};
 use super::staged::{refused, shown_table};
-use crate::asked::{Question, Send};
+use crate::asked::{GoOn, Question, Send};
 use crate::console::Console;
 use crate::progress::Progress;
 use crate::refusal::Refusal;
-use crate::runs::GoOn;
 
 /// What is asked of a fit.
 struct FitAsked {
@@ -99,7 +98,7 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     Ok(Question::new(move |go_on, send| {
         let go_on = go_on.of_study();
         let turn = go_on.turn().ok_or_else(|| refused(AnswerError::Stopped))?;
-        let found = asked.found(&go_on, send)?;
+        let found = asked.found(&*go_on, send)?;
         drop(turn);
         asked.tell(&found, send);
         Ok(())
@@ -127,7 +126,7 @@ pub(super) fn parsed<T>(
 }
 
 impl FitAsked {
-    fn found(&self, go_on: &GoOn, send: Send<'_>) -> Result<WheelFound, Refusal> {
+    fn found(&self, go_on: &dyn GoOn, send: Send<'_>) -> Result<WheelFound, Refusal> {
         let aim = AimWords::default().aim(&self.measured.tests.trials);
         let name = Path::new(&self.data).file_name().map(|it| it.to_string_lossy());
         let problem = WheelProblem {
@@ -209,7 +208,7 @@ impl FitAsked {
 
 /// Follows a fit.
 struct Watched<'w> {
-    go_on: &'w GoOn,
+    go_on: &'w dyn GoOn,
     send: Send<'w>,
     counted: Mutex<Option<Progress<'w>>>,
 }

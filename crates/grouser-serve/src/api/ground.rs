@@ -9,7 +9,7 @@ use grouser::document::file::CONFINED_CELLS;
 use grouser::document::study::MAP_SPEED_M_S;
 use grouser::studies::verdict::{Rule, SlopeStudy};
 use grouser_raster::{MapPath, Raster, ReadOptions, beside};
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::{Value, json};
 
 use super::command::CommandLine;

@@ -14,7 +14,7 @@ use grouser::document::{
 use grouser::mission::{Limited, Mission, MissionReport, MissionRun};
 use grouser::studies::mission::{DrivenLeg, DrivenMission};
 use grouser_draw::{Sheet, path_of, title_of};
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::{Value, json};
 
 use super::command::CommandLine;

@@ -7,7 +7,7 @@ use grouser::document::{
     self, DocumentError, Kind, LoadedScenario, LoadedSoil, LoadedWheel, Overrides, Source,
     UncertainSoil,
 };
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::{Value, json};
 
 use super::command::CommandLine;

@@ -12,7 +12,7 @@ use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::replay::Replayer;
 use grouser_draw::title_of;
 use grouser_logs::{LogOptions, OptionNames, TelemetryError, TelemetryLog};
-use hyper::StatusCode;
+use http::StatusCode;
 
 use super::command::CommandLine;
 use super::fields::AskedFields;

@@ -17,7 +17,7 @@ use grouser_draw::title_of;
 use grouser_map::way_as_geojson;
 use grouser_raster::zones::ZoneCounts;
 use grouser_raster::{MapPath, Raster, RasterError};
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::{Value, json};
 
 use super::command::CommandLine;

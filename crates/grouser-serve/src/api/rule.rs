@@ -2,7 +2,7 @@
 
 use grouser::document::study::SHARE;
 use grouser::studies::verdict::Rule;
-use hyper::StatusCode;
+use http::StatusCode;
 
 use super::command::CommandLine;
 use super::fields::AskedFields;

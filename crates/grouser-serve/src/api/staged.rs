@@ -9,7 +9,7 @@ use grouser::document::{json, label_of};
 use grouser::simulation::{Scenario, Trajectory};
 use grouser_draw::chart::Drawable as _;
 use grouser_draw::{Animation, Sheet, Slide, base64};
-use hyper::StatusCode;
+use http::StatusCode;
 use serde_json::{Value, json};
 
 use super::command::CommandLine;
@@ -197,7 +197,8 @@ impl Stages {
     pub(super) fn question(self, mut asked: impl Staged, line: CommandLine) -> Question {
         Question::new(move |go_on, send| {
             let progress = asked.counts().map(|what| Progress::new(send, what, 0, None));
-            let go_on = &if progress.is_some() { go_on.of_study() } else { go_on.clone() };
+            let of_study = progress.as_ref().map(|_| go_on.of_study());
+            let go_on = of_study.as_deref().unwrap_or(go_on);
             let has_scene = self.shown.is_some_and(|it| it.has_scene);
             for sampling in self.samplings {
                 let is_quick = sampling.is_none() && self.rows <= QUICK_ROWS && !has_scene;

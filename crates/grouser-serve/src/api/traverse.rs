@@ -10,7 +10,7 @@ use grouser::simulation::{RunError, Trajectory};
 use grouser::studies::ensemble::samples::BandInputs;
 use grouser::studies::traverse_band::{TraverseBand, record_times};
 use grouser_draw::title_of;
-use hyper::StatusCode;
+use http::StatusCode;
 
 use super::command::CommandLine;
 use super::fields::AskedFields;

@@ -5,7 +5,7 @@ use grouser::answers::{Answer, AnswerOptions, Sampling};
 use grouser::document::gradient::GradientKeys;
 use grouser::document::study::{LOAD_N, SLIP_ANGLE_DEG, SLIP_RATIO};
 use grouser::studies::ensemble::samples::BandInputs;
-use hyper::StatusCode;
+use http::StatusCode;
 
 use super::command::CommandLine;
 use super::fields::AskedFields;
