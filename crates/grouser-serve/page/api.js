@@ -1,4 +1,6 @@
-// Asks the server, and reads its answers line by line.
+// Asks the engine, and reads its answers line by line.
+
+import { LOST, answer, textOf } from "./engine.js";
 
 /**
  * A row of an answer: columns by their names.
@@ -54,6 +56,9 @@
  * @property {boolean} [is_assumed]
  */
 
+/** Lines that say how far an answer is. */
+const PROGRESS = "grouser.progress.v1";
+
 /** What the engine says is wrong, and with which key. */
 export class Refused extends Error {
   /** @param {Line} line */
@@ -71,30 +76,12 @@ export class Refused extends Error {
  * @param {(line: Line) => void} take
  */
 export async function ask(name, question, signal, take) {
-  const response = await fetch(`api/${name}`, {
-    method: "POST",
-    headers: { "content-type": "application/json" },
-    body: JSON.stringify(question),
-    signal,
-  });
-  /** @param {string} text */
-  const taken = (text) => {
+  await answer(name, question, signal, (text) => {
     /** @type {Line} */
     const line = JSON.parse(text);
     if (line.error !== undefined) throw new Refused(line);
     take(line);
-  };
-  if (!response.body) throw new Error("there is no answer");
-  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
-  let rest = "";
-  for (;;) {
-    const { done, value } = await reader.read();
-    if (done) break;
-    const lines = (rest + value).split("\n");
-    rest = lines.pop() ?? "";
-    for (const line of lines) if (line) taken(line);
-  }
-  if (rest) taken(rest);
+  });
 }
 
 /**
@@ -103,9 +90,9 @@ export async function ask(name, question, signal, take) {
  * @returns {Promise<Row[]>}
  */
 export async function list(name) {
-  const answer = await (await fetch(`api/${name}`)).json();
-  if (answer.error) throw new Refused(answer);
-  return answer.rows;
+  const listed = JSON.parse(await textOf(name));
+  if (listed.error) throw new Refused(listed);
+  return listed.rows;
 }
 
 /**
@@ -117,6 +104,8 @@ export class Asking {
     this.running = undefined;
     /** @type {[string, any] | undefined} the last question, with its name */
     this.asked = undefined;
+    /** @type {(line: Line) => void} takes how far the answer is, where that is known */
+    this.watch = () => {};
   }
 
   /**
@@ -133,13 +122,12 @@ export class Asking {
     const isCurrent = () => this.running === own;
     try {
       await ask(name, question, own.signal, (line) => {
-        if (isCurrent()) take(line);
+        if (isCurrent()) (line.schema === PROGRESS ? this.watch : take)(line);
       });
       if (isCurrent()) end(undefined);
     } catch (error) {
       if (!isCurrent()) return;
-      const lost = error instanceof TypeError;
-      end(lost ? new Error("The server does not answer: is it still running?") : /** @type {Error} */ (error));
+      end(error instanceof TypeError ? new Error(LOST) : /** @type {Error} */ (error));
     }
   }
 

@@ -64,6 +64,7 @@ export class Card {
   constructor(session, isPinned, actions, ended, drawn) {
     this.session = session;
     this.asking = new Asking();
+    if (!isPinned) this.asking.watch = advance;
     this.askingPower = new Asking();
     this.askingChart = new Asking();
     this.ended = ended;
@@ -274,6 +275,18 @@ export function cardCommand(command) {
 
 /** Says the answer to who does not see it. */
 export function announce(/** @type {string} */ text) {
-  const busy = byId("busy");
-  busy.textContent = text;
+  byId("busy").textContent = text;
+  byId("begun").hidden = true;
+}
+
+/**
+ * Shows how far an answer is, to who sees it.
+ * @param {Line} line
+ */
+export function advance({ what, done = 0, all }) {
+  const [bar, words] = byId("begun").children;
+  bar.setAttribute("max", String(all));
+  bar.setAttribute("value", String(done));
+  words.textContent = `${done} of ${all} ${what}`;
+  byId("begun").hidden = false;
 }

@@ -1,6 +1,7 @@
 // The page: the session, its sliders, and the view that is asked for.
 
 import { Asking, ask, list } from "./api.js";
+import { REMARK, VIEWS as ANSWERED } from "./engine.js";
 import { byId, element, save } from "./dom.js";
 import { CampaignAnswer, about as aboutCampaign } from "./campaigns.js";
 import { DesignAnswer, about as aboutDesign, namedKeys, wordsOf } from "./design.js";
@@ -141,9 +142,14 @@ function group(title, inside, isOpen) {
   return element("details", isOpen ? { open: true } : {}, [element("summary", {}, [title]), ...inside]);
 }
 
+/** @param {string} view */
+function isThere(view) {
+  return Object.hasOwn(VIEWS, view) && (ANSWERED?.includes(view) ?? true);
+}
+
 /** Makes the sliders of the documents that the session names, then asks. */
 function begin() {
-  if (!Object.hasOwn(VIEWS, session.view)) session.view = "heading";
+  if (!isThere(session.view)) session.view = "heading";
   const [isMap, isDrive, isFit, isLog] = ["map", "drive", "fit", "log"].map((view) => view === session.view);
   const isWheel = isFit || session.view === "wheel";
   for (const view of Object.keys(VIEWS)) {
@@ -577,7 +583,15 @@ byId("skip").addEventListener("click", (/** @type {Event} */ event) => {
   answer.focus();
   answer.scrollIntoView();
 });
-for (const view of Object.keys(VIEWS)) byId(`view-${view}`).addEventListener("click", () => show(view));
+for (const view of Object.keys(VIEWS)) {
+  byId(`view-${view}`).addEventListener("click", () => show(view));
+  byId(`view-${view}`).hidden = !isThere(view);
+}
+if (REMARK) {
+  const guide = element("a", { href: REMARK.guide, target: "_top" }, ["Guide"]);
+  byId("remark").replaceChildren(`${REMARK.text} `, element("code", {}, [REMARK.command]), " ", guide);
+  byId("remark").hidden = false;
+}
 addEventListener("hashchange", () => {
   ({ own: session, pinned } = fromAddress());
   reflect();

@@ -16,6 +16,7 @@ export class Study {
    */
   constructor(what, start, stopped) {
     this.asking = new Asking();
+    this.asking.watch = (line) => this.progress(line);
     this.button = element("button", { type: "button", id: "start", onclick: start }, [what]);
     this.halt = element("button", { type: "button", id: "stop", disabled: true, onclick: () => {
       this.stop();
@@ -34,17 +35,14 @@ export class Study {
   /**
    * @param {string} name
    * @param {object} question
-   * @param {(line: Line) => void} take all lines but those of the progress
+   * @param {(line: Line) => void} take
    * @param {(error: Error | undefined) => void} end
    */
   run(name, question, take, end) {
     this.show(true);
     this.what = this.all = undefined;
     this.words.textContent = "waiting for its turn …";
-    this.asking.ask(name, question, (line) => {
-      if (line.schema === "grouser.progress.v1") this.progress(line);
-      else take(line);
-    }, (error) => {
+    this.asking.ask(name, question, take, (error) => {
       this.show(false);
       // What is quick counts nothing on its way.
       this.words.textContent = !error && this.all ? `${this.all} of ${this.all} ${this.what}` : "";

@@ -3,7 +3,7 @@
 import { Asking } from "./api.js";
 import { draw } from "./chart.js";
 import { element, four, picturesOf } from "./dom.js";
-import { exportOf, stagesOf } from "./heading.js";
+import { advance, exportOf, stagesOf } from "./heading.js";
 import { setOf } from "./session.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -43,6 +43,7 @@ export class WheelAnswer {
   constructor(ended) {
     this.ended = ended;
     this.asking = new Asking();
+    this.asking.watch = advance;
     this.askingDrawing = new Asking();
     this.askingWorth = new Asking();
     /** @type {Row[]} */

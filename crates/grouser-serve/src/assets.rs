@@ -24,10 +24,11 @@ pub(crate) const PAGE: Asset =
     Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
 
 /// Everything that it loads.
-pub(crate) static ASSETS: [Asset; 27] = [
+pub(crate) static ASSETS: [Asset; 28] = [
     asset!("page.css", "text/css; charset=utf-8"),
     asset!("main.js", SCRIPT),
     asset!("api.js", SCRIPT),
+    asset!("engine.js", SCRIPT),
     asset!("session.js", SCRIPT),
     asset!("dom.js", SCRIPT),
     asset!("slider.js", SCRIPT),
