@@ -12,6 +12,7 @@ mod count;
 mod cpu;
 mod crates;
 mod diff;
+mod engine;
 mod extent;
 mod figures;
 mod flaw;
@@ -71,8 +72,12 @@ cargo xtask CHORE
   packages [--full]   check the packages without publishing them; --full builds from them alone
   python [--lowest]   build the Python package's wheel and test it in an environment of its own;
                       --lowest with the lowest versions of all that it requires
-  site [--as-it-is]   build the documentation site into target/site, and run its notebooks; --as-it-is
-                      with the Python package that is installed already
+  site [--as-it-is | --wasm]
+                      build the documentation site into target/site, and run its notebooks; --as-it-is
+                      with the Python package that is installed already, --wasm with the console, whose
+                      engine is compiled as WebAssembly
+  engine              compile the console's engine as WebAssembly into the site, and compare it with the
+                      program, in node and in Chromium
   pages               look at the site of `cargo xtask site`, and at reports, in Chromium: at two widths,
                       light and dark
   console [--pictures]
@@ -148,8 +153,10 @@ fn run(arguments: &[&str]) -> Result<ExitCode> {
             good(pages::console(Some(&workspace::root().join("docs/pictures/console")))?)
         }
         ["python", "--lowest"] => good(python::check_lowest()?),
-        ["site"] => good(site::build(&python::installed()?)?),
-        ["site", "--as-it-is"] => good(site::build(&python::as_it_is())?),
+        ["site"] => good(site::build(&python::installed()?, false)?),
+        ["site", "--wasm"] => good(site::build(&python::installed()?, true)?),
+        ["site", "--as-it-is"] => good(site::build(&python::as_it_is(), false)?),
+        ["engine"] => good(engine::check()?),
         ["outputs", "--compare", before, after] => {
             outputs::compare(Path::new(before), Path::new(after))?
         }

@@ -20,13 +20,13 @@ const TYPESCRIPT: &str = "typescript@5.9.3";
 const TYPED: &str = "crates/grouser-serve/jsconfig.json";
 
 /// What uses the console, in the same language.
-const USER: &str = include_str!("console.py");
+pub(crate) const USER: &str = include_str!("console.py");
 
 /// What looks at the pages, in the language whose driver of browsers is at hand.
 const LOOKER: &str = include_str!("pages.py");
 
 /// The site's pages that are looked at: one of each kind, and those with the widest contents.
-const PAGES: [&str; 28] = [
+const PAGES: [&str; 29] = [
     "index.html",
     "start.html",
     "tutorials/index.html",
@@ -38,6 +38,7 @@ const PAGES: [&str; 28] = [
     "guide/index.html",
     "guide/first-run.html",
     "guide/card.html",
+    "guide/try.html",
     "guide/forecast.html",
     "models/index.html",
     "models/rover.html",
@@ -176,7 +177,7 @@ fn looked_at(python: &Path, browser: &str, folder: &Path, pages: &[&str]) -> Res
 }
 
 /// The script of axe, in the package that has it.
-fn rules_of_axe(python: &Path) -> Result<String> {
+pub(crate) fn rules_of_axe(python: &Path) -> Result<String> {
     let ask = "import pathlib, axe_playwright_python as a; print(pathlib.Path(a.__file__).parent / \
                'axe.min.js')";
     let output = Command::new(python).args(["-c", ask]).output().context("Python did not start")?;

@@ -9,7 +9,7 @@ use anyhow::{Context, Result};
 
 use crate::libtest::Count;
 use crate::tools::RENDERER;
-use crate::{python, workspace};
+use crate::{engine, python, workspace};
 
 /// Builds the site into `target/site`, and counts it; without a renderer the notebook that draws
 /// MuJoCo's models is not run, and counted as skipped.
@@ -18,7 +18,8 @@ use crate::{python, workspace};
 /// are shown, and each fails the build.
 ///
 /// * `python`: that of an environment with the package installed
-pub(crate) fn build(python: &Path) -> Result<Count> {
+/// * `has_engine`: whether the console comes along, with its engine; skipped without the tools for it
+pub(crate) fn build(python: &Path, has_engine: bool) -> Result<Count> {
     let mut count = Count::default();
     let program = workspace::build_program()?;
     let (docs, site) = (workspace::root().join("docs"), workspace::target().join("site"));
@@ -38,6 +39,13 @@ pub(crate) fn build(python: &Path) -> Result<Count> {
         count += Count::skipped();
     }
     count += Count::one(sphinx.status().context("Sphinx did not start")?.success());
+    let is_whole = has_engine && engine::into(&site)?;
+    if !is_whole {
+        engine::leave_out(&site)?;
+    }
+    if has_engine {
+        count += if is_whole { Count::one(true) } else { Count::skipped() };
+    }
     println!("{}", site.join("index.html").display());
     Ok(count)
 }

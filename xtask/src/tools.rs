@@ -86,10 +86,30 @@ pub(crate) const PROCESSORS: SystemTool = SystemTool {
     found: || {
         let linkers = ["wasm-ld", "aarch64-linux-gnu-gcc", "riscv64-linux-gnu-gcc"];
         let programs = ["node", "qemu-aarch64", "qemu-riscv64"];
-        let has_source = std::path::Path::new("/usr/lib/rustlib/src/rust/library").exists();
-        has_source && linkers.iter().chain(&programs).all(|it| runs(it, &["--version"]))
+        has_sources() && linkers.iter().chain(&programs).all(|it| runs(it, &["--version"]))
     },
 };
+
+/// What compiles for browsers where the toolchain cannot.
+pub(crate) const ENGINE: SystemTool = SystemTool {
+    name: "what compiles for browsers (else: rustup target add wasm32-wasip1)",
+    packages: &["rustc-web", "rust-web-src", "lld", "wasi-libc"],
+    checks: "the engine of the console without a server and its checks",
+    found: || has_sources() && runs("wasm-ld", &["--version"]),
+};
+
+/// What runs scripts and WebAssembly outside of browsers.
+pub(crate) const NODE: SystemTool = SystemTool {
+    name: "node",
+    packages: &["nodejs"],
+    checks: "the comparisons of the console's engine",
+    found: || runs("node", &["--version"]),
+};
+
+/// Whether Debian's compiler has the sources of its standard library.
+fn has_sources() -> bool {
+    std::path::Path::new("/usr/lib/rustlib/src/rust/library").exists()
+}
 
 /// The program of that browser; some systems name it otherwise.
 pub(crate) fn browser() -> Option<&'static str> {

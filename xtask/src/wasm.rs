@@ -13,7 +13,7 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// Checks `grouser-core` for the target. Skipped where the target's standard library is not
 /// installed.
 pub(crate) fn check() -> Result<Count> {
-    if !is_installed()? {
+    if !is_installed(TARGET)? {
         println!(
             "the target {TARGET} is missing, so the build of grouser-core for browsers is skipped; \
              with rustup: rustup target add {TARGET}"
@@ -25,9 +25,9 @@ pub(crate) fn check() -> Result<Count> {
     Ok(Count::one(status.success()))
 }
 
-/// Whether the toolchain has the target's standard library.
-fn is_installed() -> Result<bool> {
-    let arguments = ["--print", "target-libdir", "--target", TARGET];
+/// Whether the toolchain has a target's standard library.
+pub(crate) fn is_installed(target: &str) -> Result<bool> {
+    let arguments = ["--print", "target-libdir", "--target", target];
     let printed = Command::new("rustc")
         .args(arguments)
         .current_dir(workspace::root())
