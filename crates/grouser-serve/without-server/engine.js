@@ -97,7 +97,10 @@ class Line {
   start(module) {
     const worker = new Worker(new URL("worker.js", import.meta.url), { type: "module" });
     worker.addEventListener("message", (/** @type {MessageEvent<Report>} */ { data }) => this.take(worker, data));
-    worker.addEventListener("error", () => this.end(worker, LOST));
+    worker.addEventListener("error", () => {
+      this.end(worker, LOST);
+      this.next();
+    });
     worker.postMessage(module);
     this.workers.set(worker, undefined);
     return worker;
