@@ -24,7 +24,7 @@ struct Step {
     budget: f64,
     /// Where a change begins that asks for it, as paths from the root; nothing: any change does.
     asks: &'static [&'static str],
-    /// Whether `ci --full` alone takes it, but for changes that ask for it.
+    /// Whether only `ci --full` takes it.
     is_long: bool,
     take: Take,
 }
@@ -52,15 +52,6 @@ const STEPS: [Step; 26] = {
     const OF_C: &[&str] =
         &["Cargo", "crates/grouser-c/", "crates/grouser-core", "crates/grouser-io", "xtask"];
     const COMPUTES: &[&str] = &["Cargo", "crates/", "xtask"];
-    const OF_ENGINE: &[&str] = &[
-        "Cargo",
-        "crates/grouser/",
-        "crates/grouser-core",
-        "crates/grouser-draw",
-        "crates/grouser-io",
-        "crates/grouser-serve",
-        "xtask/src/engine",
-    ];
     const COUNTED: &[&str] = &["Cargo", "crates/grouser/", "crates/grouser-core", "xtask"];
     [
         step("tools", 1.0, Here(|_| Ok(tools::check()))),
@@ -90,7 +81,7 @@ const STEPS: [Step; 26] = {
         Step { asks: COUNTED, ..step("instructions", 80.0, Beside(&["instructions", "--check"])) },
         step("python", 550.0, Here(python::check)),
         step("workflows", 2.0, Here(|_| workflows::check().map(Count::one))),
-        Step { asks: OF_ENGINE, is_long: true, ..step("engine", 400.0, Last(engine::check)) },
+        Step { is_long: true, ..step("engine", 400.0, Last(engine::check)) },
         Step { asks: PAGES, ..step("pages", 210.0, Last(pages::check)) },
         Step { is_long: true, ..step("release", 600.0, Here(|_| release())) },
     ]
@@ -121,9 +112,7 @@ pub(crate) fn run(extent: Extent) -> bool {
     // Fetching packages waits for the network more than it computes.
     std::thread::spawn(python::environment);
     let changed = if extent == Extent::Full { None } else { changed::files() };
-    let is_named = |step: &Step| changed.as_deref().is_some_and(|files| step.looks_at(files));
-    let is_due = |step: &&Step| extent == Extent::Full || !step.is_long || is_named(step);
-    let steps = STEPS.iter().filter(is_due);
+    let steps = STEPS.iter().filter(|step| extent == Extent::Full || !step.is_long);
     let (asked, left): (Vec<&Step>, Vec<&Step>) =
         steps.partition(|step| step.is_asked(changed.as_deref()));
     let (mut taken, mut beside) = (Vec::new(), Vec::new());
@@ -146,13 +135,8 @@ impl Step {
     ///
     /// * `changed`: paths from the root; nothing: all steps are taken
     fn is_asked(&self, changed: Option<&[String]>) -> bool {
-        self.asks.is_empty() || changed.is_none_or(|files| self.looks_at(files))
-    }
-
-    /// Whether some of these files is one that it looks at.
-    fn looks_at(&self, files: &[String]) -> bool {
         let asks = |file: &String| self.asks.iter().any(|start| file.starts_with(start));
-        files.iter().any(asks)
+        self.asks.is_empty() || changed.is_none_or(|files| files.iter().any(asks))
     }
 
     /// Takes a step. One that cannot be taken has failed; the next ones are taken all the same.
@@ -313,9 +297,6 @@ mod tests {
         assert!(step("tests").is_asked(Some(&of_core)) && step("tests").is_asked(Some(&of_docs)));
         assert!(!step("site").is_asked(Some(&of_core)) && step("site").is_asked(Some(&of_docs)));
         assert!(step("site").is_asked(None));
-        // A step that takes long is for those who change what it looks at.
-        assert!(step("engine").is_long && step("engine").looks_at(&of_core));
-        assert!(!step("engine").looks_at(&of_docs) && !step("release").looks_at(&of_core));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use grouser_core::paper;
 use grouser_core::simulation::{Approach, Run};
 use grouser_core::vehicle::{LoadSharing, OwnMoments};
 
-/// Even numbers in [−1, 1), the same at every call.
+/// Evenly distributed numbers in [−1, 1), the same at every call.
 struct Draws(u64);
 
 impl Draws {

@@ -207,8 +207,13 @@ export class HandDrive extends DriveAnswer {
 
   /** Has the scene where the rover is, without a key that drives it. */
   async seenAnew() {
-    if (this.isScene && !this.isGoing && !this.run?.outcome) await this.step(LEAST, true);
+    if (this.isScene && !this.isGoing && !this.run?.outcome) {
+      this.isGoing = true;
+      await this.step(LEAST, true);
+      this.isGoing = false;
+    }
     this.answered(undefined);
+    if (this.held.size) this.go();
   }
 
   /** Stands at the start. */

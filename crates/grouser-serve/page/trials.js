@@ -62,8 +62,8 @@ export class Trials {
   ask(session) {
     this.session = session;
     this.without = new Set(session.without.split(",").filter(Boolean));
-    const { wheel, data } = session;
-    const question = { data, ...(wheel ? { wheel } : {}), where: conditionsOf(session.where) };
+    const { wheel, rover, data } = session;
+    const question = { data, ...(wheel ? { wheel } : { rover }), where: conditionsOf(session.where) };
     const asked = JSON.stringify(question);
     if (asked === this.asked) {
       this.draw();

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::future::{Future as _, poll_fn};
 use std::io;
 use std::pin::{Pin, pin};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::task::{Context, Poll};
 use std::time::Duration;
@@ -111,8 +112,10 @@ async fn serve(stream: TcpStream, shared: &Arc<Shared>, silent: &Arc<Silent>) {
     drop(stream.set_nodelay(true));
     let Ok([stream, watched]) = twice(stream) else { return };
     let (number, end) = silent.enter();
+    let has_asked = AtomicBool::new(false);
     let service = service_fn(|request| {
         silent.leave(number);
+        has_asked.store(true, Ordering::Relaxed);
         let shared = Arc::clone(shared);
         async move { Ok::<_, Infallible>(routes::respond(&shared, request).await) }
     });
@@ -124,7 +127,11 @@ async fn serve(stream: TcpStream, shared: &Arc<Shared>, silent: &Arc<Silent>) {
         .serve_connection(TokioIo::new(Patient::new(stream, limits)), service);
     let (mut closed, mut to_end) = (pin!(closed(&watched)), pin!(end.notified()));
     let ended = poll_fn(|context| match Pin::new(&mut connection).poll(context) {
-        Poll::Pending if to_end.as_mut().poll(context).is_ready() => Poll::Ready(End::ForAnother),
+        Poll::Pending
+            if !has_asked.load(Ordering::Relaxed) && to_end.as_mut().poll(context).is_ready() =>
+        {
+            Poll::Ready(End::ForAnother)
+        }
         Poll::Pending => closed.as_mut().poll(context).map(|()| End::Closed),
         Poll::Ready(Err(error)) if error.is_timeout() => Poll::Ready(End::TooLate),
         Poll::Ready(_) => Poll::Ready(End::Closed),

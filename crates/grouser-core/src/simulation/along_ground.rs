@@ -53,6 +53,11 @@ pub(super) struct Carried {
 stored!(struct Carried { memory, stride, rolled });
 
 impl Carried {
+    /// Whether a rover with so many wheels can have it.
+    pub(super) fn is_of(&self, count: usize) -> bool {
+        [&self.stride.from, &self.stride.to].iter().all(|node| node.steady.wheels.len() == count)
+    }
+
     /// The wheels where the rover is.
     pub(super) fn wheels(&self) -> Vec<WheelReaction> {
         self.stride.wheels()

@@ -101,6 +101,13 @@ pub(super) struct LastWheels {
 
 stored!(struct LastWheels { on_plane, standing });
 
+impl LastWheels {
+    /// Whether a rover with so many wheels can have it.
+    pub(super) fn is_of(&self, count: usize) -> bool {
+        self.standing.lifted.is_none_or(|wheel| wheel < count)
+    }
+}
+
 /// Rates of change of a rover's motion, and the powers of its energy balance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates {

@@ -74,6 +74,12 @@ pub(super) struct Carried {
 stored!(struct Carried { memory, stretch, rolled });
 
 impl Carried {
+    /// Whether a rover with so many wheels can have it.
+    pub(super) fn is_of(&self, count: usize) -> bool {
+        let nodes = &self.stretch.nodes;
+        matches!(nodes.len(), 1 | 2 | 5) && nodes.iter().all(|node| node.wheels.len() == count)
+    }
+
     /// The wheels at a point of the motion, if it is one of steady states.
     pub(super) fn wheels(&self, equations: &Equations<'_>, point: &Point) -> Vec<WheelReaction> {
         self.stretch.wheels(equations, point)

@@ -235,6 +235,7 @@ impl Run {
         if !is_new || follows || self.scenario.start.motion == Motion::Rest {
             return;
         }
+        self.forget_now();
         self.state.jump(&self.scenario.rover, |state| {
             state.velocity = ROLLING_SHARE * new;
             state.yaw_rate = 0.0;

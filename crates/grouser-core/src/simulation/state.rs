@@ -215,7 +215,12 @@ impl State {
     }
 
     fn restored(bytes: &mut &[u8], rover: &Rover) -> Option<Self> {
+        /// No run gets so far [s]: thirty years.
+        const LATEST: f64 = 1e9;
         let (time, point) = Stored::restore(bytes)?;
+        if !(0.0..=LATEST).contains(&time) {
+            return None;
+        }
         let [commanded, set_speeds, rim_speeds, slip_ratios] =
             <[Vec<f64>; 4] as Stored>::restore(bytes)?;
         let count = commanded.len();
@@ -227,7 +232,7 @@ impl State {
             Some(angles) => Some(Arc::new(rover.steered(&angles).ok()?)),
             None => None,
         };
-        Some(Self {
+        let state = Self {
             time,
             point,
             commanded,
@@ -246,7 +251,8 @@ impl State {
             carried: Stored::restore(bytes)?,
             near: Stored::restore(bytes)?,
             approach: Stored::restore(bytes)?,
-        })
+        };
+        (state.carried.is_of(count) && state.near.is_of(count)).then_some(state)
     }
 
     /// Time since the start [s].

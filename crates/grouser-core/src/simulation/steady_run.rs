@@ -31,6 +31,15 @@ pub(super) enum Carried {
 stored!(enum Carried { 0 => Nothing, 1 => Velocities, 2 => Plane(carried), 3 => Uneven(carried) });
 
 impl Carried {
+    /// Whether a rover with so many wheels can have it.
+    pub(super) fn is_of(&self, count: usize) -> bool {
+        match self {
+            Self::Plane(carried) => carried.is_of(count),
+            Self::Uneven(carried) => carried.is_of(count),
+            Self::Nothing | Self::Velocities => true,
+        }
+    }
+
     /// The wheels at a point of the motion, if it is one of steady states.
     pub(super) fn wheels(
         &self,

@@ -294,7 +294,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         }
         let here = self.evaluate(yaw, guess)?;
         let inverse = self.jacobian(yaw, guess, &here, None)?.try_inverse()?;
-        self.correct(yaw, guess, inverse)
+        self.correct_from(yaw, guess, here, inverse, LONGEST)
     }
 
     /// The steady state nearest to the guess.
@@ -435,6 +435,12 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         const FAR_VELOCITIES: f64 = 0.5;
         /// Rovers that settle within this surely settle in time [s].
         const SURELY: f64 = 0.25 * LONGEST_SETTLING;
+        let slips = steady.wheels.iter().map(|wheel| wheel.slip.ratio);
+        let slip_ratio = slips.sum::<f64>() / steady.wheels.len() as f64;
+        // Wheels that stand still hold the rover, and wheels that turn against each other do.
+        if slip_ratio.abs() > MOST_SLIP && !self.is_at_rest() {
+            return Err(NotSteady::Spinning { slip_ratio });
+        }
         if let Some((yaw, velocities, time)) = self.memory.checked
             && (yaw - steady.yaw).abs() < NEAR_YAW
         {
@@ -443,18 +449,14 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
                 return Ok(time);
             }
             let by_inverse = || self.memory.inverse?.try_inverse().and_then(|it| time_of(&it).ok());
-            if far < FAR_VELOCITIES
+            // A search of motors that droop keeps another inverse.
+            if steady.turning.is_none()
+                && far < FAR_VELOCITIES
                 && time <= SURELY
                 && let Some(time) = by_inverse().filter(|time| *time <= SURELY)
             {
                 return Ok(time);
             }
-        }
-        let slips = steady.wheels.iter().map(|wheel| wheel.slip.ratio);
-        let slip_ratio = slips.sum::<f64>() / steady.wheels.len() as f64;
-        // Wheels that stand still hold the rover, and wheels that turn against each other do.
-        if slip_ratio.abs() > MOST_SLIP && !self.is_at_rest() {
-            return Err(NotSteady::Spinning { slip_ratio });
         }
         let jacobian = self.jacobian_of(steady).ok_or(NotSteady::NoSteadyState)?;
         self.memory.inverse = jacobian.try_inverse();

@@ -1,5 +1,6 @@
 //! Conditions that select rows: `slip_angle_deg=0,15`, `wheel!=grouser`.
 
+use std::collections::HashSet;
 use std::fmt;
 
 /// What the value in a column must be, or must not be.
@@ -35,6 +36,14 @@ impl Condition {
     #[must_use]
     pub fn is_met_by(&self, cell: &str) -> bool {
         self.values.iter().any(|value| same(value, cell)) == self.wanted
+    }
+
+    /// Whether a number meets it, for many numbers.
+    pub(super) fn of_numbers(&self) -> impl Fn(f64) -> bool {
+        let each = self.values.iter().filter_map(|value| value.parse::<f64>().ok());
+        let values: HashSet<u64> = each.map(f64::to_bits).collect();
+        let wanted = self.wanted;
+        move |number| values.contains(&number.to_bits()) == wanted
     }
 }
 

@@ -173,8 +173,8 @@ impl<'a> Header<'a> {
     /// Takes away the rows that conditions on lines leave out, and says how many there were.
     pub(super) fn leave_out_lines(&self, rows: &mut Vec<Row>) -> Option<String> {
         let all = rows.len();
-        let is_met = |line: u64| self.of_lines.iter().all(|it| it.is_met_by(&line.to_string()));
-        rows.retain(|row| is_met(row.line));
+        let conditions: Vec<_> = self.of_lines.iter().map(|it| it.of_numbers()).collect();
+        rows.retain(|row| conditions.iter().all(|is_met| is_met(row.line as f64)));
         let left_out = all - rows.len();
         (left_out > 0).then(|| format!("without {left_out} of {all} trials, by their lines"))
     }

@@ -9,7 +9,9 @@ use grouser::document::columns::{
     Column, DRAWBAR_PULL, LOAD, SIDE_FORCE, SINKAGE, SLIP_ANGLE, SLIP_RATIO, TORQUE,
 };
 use grouser::document::measurements::wheel_tests::{Quantity, Trial};
-use grouser::document::measurements::{self, Choice, Condition, Limits, MeasurementError};
+use grouser::document::measurements::{
+    self, Choice, Condition, Limits, MeasurementError, MeasurementProblem,
+};
 use grouser::document::table::Table;
 use grouser::document::{
     self, DataSetCase, Kind, LoadedDataSet, Overrides, Preset, Source, json, read_data_set,
@@ -18,6 +20,7 @@ use serde_json::{Value, json};
 
 use super::fields::AskedFields;
 use super::fit::{bytes_of, parsed};
+use super::parts::wheel_of;
 use crate::asked::Question;
 use crate::console::Console;
 use crate::refusal::Refusal;
@@ -36,6 +39,9 @@ const TRIAL: [Column<Trial>; 7] = [
 fn read(trial: &Trial, quantity: Quantity) -> Option<f64> {
     trial.readings[quantity].map(|reading| reading.value)
 }
+
+/// Trials that a page has points for.
+const MOST_SHOWN: usize = 5_000;
 
 /// Bytes of a file that are looked at for what it lacks: its first lines.
 const HEAD: u64 = 64 << 10;
@@ -94,7 +100,7 @@ fn row(
 }
 
 fn preset_lacks(preset: &Preset, conditions: Vec<Condition>) -> Option<String> {
-    lacks(preset.rows.unwrap_or_default().as_bytes(), conditions)
+    lacks(preset.rows.unwrap_or_default().as_bytes(), conditions, |_| true)
 }
 
 fn head_lacks(console: &Console, path: &str, conditions: Vec<Condition>) -> Option<String> {
@@ -102,33 +108,51 @@ fn head_lacks(console: &Console, path: &str, conditions: Vec<Condition>) -> Opti
     let path = console.folder.find_map(path).ok()?;
     let file: File = console.folder.open_file(&path).ok()?;
     file.take(HEAD).read_to_end(&mut head).ok()?;
-    if head.len() as u64 == HEAD {
+    let is_cut = head.len() as u64 == HEAD;
+    if is_cut {
         // The last line may be a part of one.
         let end = head.iter().rposition(|byte| *byte == b'\n').unwrap_or(0);
         head.truncate(end);
     }
-    lacks(&head, conditions)
+    // Rows that are wanted may come later.
+    let may_come = |problem: &MeasurementProblem| {
+        use MeasurementProblem::{NoRowMeets, NoRowOk, NoRows};
+        is_cut && matches!(problem, NoRows | NoRowMeets { .. } | NoRowOk { .. })
+    };
+    lacks(&head, conditions, |problem| !may_come(problem))
 }
 
 /// What rows lack to be fitted; several wheels are a choice, and no lack.
-fn lacks(rows: &[u8], conditions: Vec<Condition>) -> Option<String> {
+fn lacks(
+    rows: &[u8],
+    conditions: Vec<Condition>,
+    counts: impl Fn(&MeasurementProblem) -> bool,
+) -> Option<String> {
     let choice = Choice { conditions, ..Choice::default() };
     let error = measurements::read_from("", rows, &choice).err()?;
-    (!error.is_of_several_wheels()).then(|| error.problem().to_string())
+    let is_lack = !error.is_of_several_wheels() && counts(error.problem());
+    is_lack.then(|| error.problem().to_string())
 }
 
 /// The trials of a data set, before some of them are left out.
 pub(super) fn task(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
     let fields = AskedFields::of(body)?;
     let data = fields.text("data")?.unwrap_or_default();
-    let wheel = fields.text("wheel")?;
+    let (wheel, rover) = (fields.text("wheel")?, fields.text("rover")?);
     let given = fields.texts("where")?;
     fields.finish()?;
     let conditions = parsed("where", &given, Condition::parse)?;
+    let of_rover = || rover.map(|name| wheel_of(&console.folder, &name)).transpose();
+    let wheel = wheel.map_or_else(of_rover, |it| Ok(Some(it)))?;
     let choice = Choice { conditions, wheel, limits: Limits::default() };
     let of_data = |error: MeasurementError| Refusal::of_key("data", error.to_string());
     let bytes = bytes_of(console, &data, choice.limits)?;
     let measured = measurements::read_from(&data, &*bytes, &choice).map_err(of_data)?;
+    let count = measured.tests.trials.len();
+    if count > MOST_SHOWN {
+        let message = format!("{count} trials are more than the {MOST_SHOWN} that can be shown");
+        return Err(Refusal::of_key("data", message).with_hint("`where` takes a part of them"));
+    }
     Ok(Question::new(move |_, send| {
         let mut rows = json!(Table::of(&TRIAL, &measured.tests.trials));
         for (row, line) in rows.as_array_mut().into_iter().flatten().zip(&measured.lines) {

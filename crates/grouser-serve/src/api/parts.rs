@@ -499,12 +499,17 @@ fn set_of(fields: &AskedFields) -> Result<Vec<(String, String)>, Refusal> {
 }
 
 /// The wheel of a rover, by the name of its preset: commands take a wheel by a name.
-fn wheel_of(folder: &ServedFolder, name: &str) -> Result<String, Refusal> {
+pub(super) fn wheel_of(folder: &ServedFolder, name: &str) -> Result<String, Refusal> {
     let refused = |message: String| Refusal::of_key("rover", message);
     let source = find("rover", folder, Kind::Rover, name)?;
     let rover = document::read_rover(&source, &Overrides::none());
     let rover = rover.map_err(|error| refused(error.to_string()))?;
-    let own = rover.value.mounts().first().map(|mount| mount.unit.wheel);
+    let wheels = || rover.value.mounts().iter().map(|mount| mount.unit.wheel);
+    let own = wheels().next();
+    if wheels().any(|wheel| Some(wheel) != own) {
+        return Err(refused("this rover has different wheels".to_owned())
+            .with_hint("name a wheel by `wheel`"));
+    }
     let is_own = |preset: &&'static document::Preset| {
         let wheel = document::read_wheel(&Source::Preset(preset), &Overrides::none());
         wheel.is_ok_and(|wheel| Some(wheel.value) == own)

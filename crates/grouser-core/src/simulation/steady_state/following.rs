@@ -83,10 +83,14 @@ impl SteadySolver<'_, '_> {
             self.memory.inverse = Some(inverse);
             return Some(steady_state_at(yaw, *velocities, here.clone(), None));
         }
-        let longest = STRAYING * way;
+        let (longest, before) = (STRAYING * way, self.memory.inverse);
         let found = (way <= NEAR)
             .then(|| self.correct_from(yaw, velocities, here.clone(), inverse, longest))??;
-        (self.size(&(found.velocities - velocities)) <= longest).then_some(found)
+        if self.size(&(found.velocities - velocities)) > longest {
+            self.memory.inverse = before;
+            return None;
+        }
+        Some(found)
     }
 
     /// A step, as long as the tangent foresees it.

@@ -35,7 +35,7 @@ pub(crate) struct KnownStanding {
     /// Under loads of least norm, on warped ground.
     least: Vec<Known>,
     /// The wheel that is lifted.
-    lifted: Option<usize>,
+    pub(crate) lifted: Option<usize>,
 }
 
 stored!(struct KnownStanding { under, least, lifted });
@@ -100,11 +100,13 @@ impl Sought<'_> {
         Err(Unfound::Unusual)
     }
 
-    /// The same of a motion beside the one that is known, by one look at every wheel: to first
+    /// The reaction in a motion beside the one that is known, by one look at every wheel: to first
     /// order in how far it is, as differences need it.
     pub(super) fn beside(&self, near: &KnownStanding) -> Option<Vec<WheelReaction>> {
         let is_known = |known: &[Known]| known.iter().all(Known::has_slope);
-        if near.under.is_empty() || !is_known(&near.under) || !is_known(&near.least) {
+        let least = if self.warp().is_some() { self.met.len() } else { 0 };
+        let is_whole = near.under.len() == self.met.len() && near.least.len() == least;
+        if !is_whole || !is_known(&near.under) || !is_known(&near.least) {
             return None;
         }
         let mixtures = self.mixtures();
@@ -139,7 +141,11 @@ impl Sought<'_> {
             .collect()
         };
         let least = if warp.is_some() { curves(&near.least) } else { Vec::new() };
-        let lifted = lifted.filter(|_| warp.is_some());
+        // What lifts a wheel of a warped rover is the warp: it lies where that takes load off.
+        let is_off = |wheel: &usize| {
+            warp.as_ref().is_some_and(|(_, mode)| mode.get(*wheel).is_some_and(|it| *it > 0.0))
+        };
+        let lifted = lifted.filter(is_off);
         let loads = transfer.of_weight().clone();
         let (under, weight) = (curves(&near.under), self.weight.norm());
         let along = 0.0;
@@ -360,7 +366,9 @@ mod tests {
             .map(|_| Slip::on_test_stand(draws.uniform() - 0.3, 0.6 * draws.uniform() - 0.3))
             .collect();
         let sought = ground.sought(&posture, Vec3::z(), &slips, &[]);
-        let mut known = KnownStanding::default();
+        // Whichever wheel was lifted before, the one that is lifted now is found.
+        let lifted = Some((4.9 * draws.uniform()) as usize).filter(|wheel| *wheel < 4);
+        let mut known = KnownStanding { lifted, ..KnownStanding::default() };
         let together = sought.together(&mut known)?;
         let in_turns = sought.in_turns(&mut NearbyStanding::default()).expect("they settle");
         Some((together, known.lifted, in_turns))
