@@ -15,7 +15,7 @@ use super::{CLOSE, SteadySolver, SteadyState, acceleration_of, steady_state_at};
 use crate::simulation::equations::Evaluation;
 
 /// A step that the tangent foresaw well enough.
-struct Step {
+struct Followed {
     velocities: Vector3<f64>,
     there: Evaluation,
     /// How long the next one may be [s].
@@ -104,7 +104,7 @@ impl SteadySolver<'_, '_> {
         jacobian: &Matrix3<f64>,
         left: &mut usize,
         (mut span, most_longer): (f64, f64),
-    ) -> Option<Step> {
+    ) -> Option<Followed> {
         let size = |acceleration: &Vector3<f64>| {
             Vector3::new(acceleration.x, acceleration.y, acceleration.z * self.reach).norm()
         };
@@ -128,7 +128,7 @@ impl SteadySolver<'_, '_> {
             let share = (LITTLE / self.size(&step)).min(most_longer);
             let longer = fading.max(MISSED.0 / missed).min(CHANGE.1).max(share);
             let next_span = span * longer.min(MISSED.1 / missed).max(CHANGE.0);
-            return Some(Step { velocities: from + step, there, next_span });
+            return Some(Followed { velocities: from + step, there, next_span });
         }
         None
     }

@@ -44,7 +44,7 @@ stored!(struct KnownStanding { under, least, lifted });
 const MOST_ROUNDS: usize = 8;
 
 /// Wheels on their way to the loads that balance the rover.
-struct Together<'a> {
+struct Settling<'a> {
     transfer: Transfer,
     /// Of warped ground, |gaps| [m] and *p*.
     warp: Option<(f64, DVector<f64>)>,
@@ -126,7 +126,7 @@ impl Sought<'_> {
         mixtures: &'c [Option<Mixture<'c>>],
         near: &KnownStanding,
         lifted: Option<usize>,
-    ) -> Result<Together<'c>, Unfound> {
+    ) -> Result<Settling<'c>, Unfound> {
         let ground = self.ground;
         let transfer = ground.balance().transfer(ground.rover, self.posture, self.weight);
         let transfer = transfer.ok_or(Unfound::Unusual)?;
@@ -149,7 +149,7 @@ impl Sought<'_> {
         let loads = transfer.of_weight().clone();
         let (under, weight) = (curves(&near.under), self.weight.norm());
         let along = 0.0;
-        let mut wheels = Together { transfer, warp, under, least, lifted, loads, along, weight };
+        let mut wheels = Settling { transfer, warp, under, least, lifted, loads, along, weight };
         if wheels.under.iter().chain(&wheels.least).all(Curve::is_known) {
             wheels.meet()?;
         }
@@ -157,7 +157,7 @@ impl Sought<'_> {
     }
 }
 
-impl Together<'_> {
+impl Settling<'_> {
     /// Loads of least norm, *N°* [N].
     fn least_loads(&self) -> DVector<f64> {
         match &self.warp {
@@ -367,7 +367,8 @@ mod tests {
             .collect();
         let sought = ground.sought(&posture, Vec3::z(), &slips, &[]);
         // Whichever wheel was lifted before, the one that is lifted now is found.
-        let lifted = Some((4.9 * draws.uniform()) as usize).filter(|wheel| *wheel < 4);
+        let share = draws.uniform();
+        let lifted = (0..4).find(|wheel| share < 0.2 * (*wheel as f64 + 1.0));
         let mut known = KnownStanding { lifted, ..KnownStanding::default() };
         let together = sought.together(&mut known)?;
         let in_turns = sought.in_turns(&mut NearbyStanding::default()).expect("they settle");
