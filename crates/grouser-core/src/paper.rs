@@ -3,6 +3,9 @@
 //!
 //! They are those of the documents `toyoura` and `hakuto` of `grouser-io`, bit for bit.
 
+#[cfg(test)]
+mod uneven;
+
 use crate::error::ParameterError;
 use crate::simulation::Scenario;
 use crate::soil::{Domain, PressureSinkage, Shear, ShearModulus, SinkageExponent, Soil, Span};

@@ -102,7 +102,7 @@ impl<'a, 'g> AlongGround<'a, 'g> {
     ) -> Result<Self, NotSteady> {
         let (memory, before) = match before {
             Before::Steady(Carried { memory, stride, .. }) if !rims_changed => {
-                let solver = SteadySolver::new(equations, memory).ending_unseen();
+                let solver = SteadySolver::new(equations, memory);
                 let next = if stride.length > 0.0 { 2.0 * stride.length } else { f64::INFINITY };
                 return Ok(Self { equations, solver, stride, next });
             }
@@ -111,7 +111,7 @@ impl<'a, 'g> AlongGround<'a, 'g> {
             Before::Nothing => (Memory::default(), Before::Nothing),
         };
         let (place, yaw) = (point.state.position, point.state.yaw);
-        let mut solver = SteadySolver::new(equations, memory).ending_unseen();
+        let mut solver = SteadySolver::new(equations, memory);
         solver.go_to(place);
         let steady = solver.find_after(yaw, &point.velocities(), before)?;
         let from = Node::of(equations, &solver, place, yaw, steady)?;

@@ -112,14 +112,14 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
         let yaw = point.state.yaw;
         let (memory, before) = match before {
             Before::Steady(Carried { memory, stretch, .. }) if !rims_changed => {
-                let solver = SteadySolver::new(equations, memory).ending_unseen();
+                let solver = SteadySolver::new(equations, memory);
                 return Ok(Self { equations, solver, stretch });
             }
             Before::Steady(Carried { memory, rolled, .. }) => (memory, Before::Steady(rolled)),
             Before::Another => (Memory::default(), Before::Another),
             Before::Nothing => (Memory::default(), Before::Nothing),
         };
-        let mut solver = SteadySolver::new(equations, memory).ending_unseen();
+        let mut solver = SteadySolver::new(equations, memory);
         let here = solver.find_after(yaw, &point.velocities(), before)?;
         let stretch = Stretch::ahead(&mut solver, here, horizon)?;
         let mut motion = Self { equations, solver, stretch };

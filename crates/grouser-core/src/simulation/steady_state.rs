@@ -14,8 +14,6 @@
 
 mod following;
 
-use std::cell::Cell;
-
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::equations::{Equations, Evaluation};
@@ -117,8 +115,6 @@ pub(super) struct SteadySolver<'a, 'g> {
     memory: Memory,
     /// Where the rover is [m], which matters on uneven ground.
     place: Vec2,
-    /// Whether a short last step is taken without a look.
-    ends_unseen: bool,
 }
 
 /// What the last steady state teaches about the next one.
@@ -139,11 +135,6 @@ stored!(struct Memory { scale, inverse, with_motors, checked });
 /// Velocities this near to those of the steady state are taken for it, over the fastest rim's speed
 /// [-]: a tenth of the relative tolerance of dynamic runs.
 const CLOSE: f64 = 1e-7;
-/// A step this short, over the fastest rim's speed [-], may be the last, after which nobody looks,
-/// where those before it say that it leaves less than the other: forces are then those of the place
-/// before it. Source: ours; a quasi-steady motion is a hundred times as far from the true one.
-const SHORT: f64 = 1e-5;
-const UNSEEN: f64 = 0.3 * CLOSE;
 /// Steps longer than this leave the neighbourhood in which a tangent tells anything, over the
 /// fastest rim's speed [-].
 const LONGEST: f64 = 0.5;
@@ -178,13 +169,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         let is_similar = SIMILAR.contains(&(scale / memory.scale));
         let memory = if is_similar { memory } else { Memory::default() };
         let memory = Memory { scale, ..memory };
-        Self { equations, scale, reach, memory, place: Vec2::zeros(), ends_unseen: false }
-    }
-
-    /// The same for a motion that goes on from one steady state to the next: a short last step of a
-    /// search is taken without a look at the forces after it.
-    pub(super) fn ending_unseen(self) -> Self {
-        Self { ends_unseen: true, ..self }
+        Self { equations, scale, reach, memory, place: Vec2::zeros() }
     }
 
     /// Sets the place [m] at which steady states are sought from now on.
@@ -319,23 +304,16 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         inverse: Matrix3<f64>,
         longest: f64,
     ) -> Option<SteadyState> {
-        let before = Cell::new(f64::NAN);
         let zero = newton::zero_from(
             |velocities| self.evaluate(yaw, velocities).map(|here| (acceleration_of(&here), here)),
             (*guess, (acceleration_of(&here), here)),
             inverse,
             |step| self.size(step),
             longest,
-            |_, step| {
-                let size = self.size(step);
-                let left = size * size / before.replace(size);
-                size <= CLOSE || self.ends_unseen && size <= SHORT && left <= UNSEEN
-            },
+            |_, step| self.size(step) <= CLOSE,
         )?;
         self.memory.inverse = Some(zero.inverse);
-        let step = -(zero.inverse * acceleration_of(&zero.value));
-        let velocities = if self.size(&step) > CLOSE { zero.at + step } else { zero.at };
-        Some(steady_state_at(yaw, velocities, zero.value, None))
+        Some(steady_state_at(yaw, zero.at, zero.value, None))
     }
 
     /// The steady state of wheels whose speeds depend on their loads: their speeds are sought with

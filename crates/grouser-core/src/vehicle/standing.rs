@@ -189,7 +189,7 @@ impl OnGround<'_> {
     }
 
     /// * `before`: the wheels in a motion nearby, or none
-    fn sought<'a>(
+    pub(crate) fn sought<'a>(
         &'a self,
         posture: &'a Posture,
         up: Vec3,
@@ -317,7 +317,7 @@ const NEARLY: f64 = 1e-11;
 const LIGHT: f64 = 1e-4;
 
 /// Loads of wheels that stand, on their way to those that balance the rover.
-struct Sought<'a> {
+pub(crate) struct Sought<'a> {
     ground: &'a OnGround<'a>,
     posture: &'a Posture,
     met: Vec<Met>,
@@ -330,7 +330,10 @@ struct Sought<'a> {
 
 impl Sought<'_> {
     /// The reaction on every wheel, loads and wheels in turn, from those of a motion nearby.
-    fn in_turns(&self, near: &mut NearbyStanding) -> Result<Vec<WheelReaction>, ReactionError> {
+    pub(crate) fn in_turns(
+        &self,
+        near: &mut NearbyStanding,
+    ) -> Result<Vec<WheelReaction>, ReactionError> {
         let weight = self.weight.norm();
         let NearbyStanding { wheels: before, inverse, .. } = std::mem::take(near);
         let guess = if before.is_empty() {

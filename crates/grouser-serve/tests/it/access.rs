@@ -1,10 +1,12 @@
 //! Who may ask what.
 
+use std::io::Write as _;
 use std::net::{IpAddr, Ipv6Addr, TcpStream};
 use std::time::{Duration, Instant};
 
 use grouser_serve::{Limits, Server, Settings};
 
+use crate::limits::head;
 use crate::served::{Reply, Served};
 
 /// A name of somebody else.
@@ -152,7 +154,9 @@ fn every_response_keeps_others_out() {
     ]
     .map(|request| once_free(|| server.send(&request)));
     let half = once_free(|| server.send("GET / HTTP/1.1\r\nHost: "));
-    let _open = server.connect();
+    // One that has begun to ask keeps its place.
+    let mut open = server.connect();
+    open.write_all(head(&server, "Content-Length: 100").as_bytes()).unwrap();
     std::thread::sleep(Duration::from_millis(100));
     let full = server.send(foreign);
     let is = |reply: &Reply, status: u16| assert_eq!(reply.status, status, "{reply:?}");

@@ -13,7 +13,7 @@ fn limited(limits: Limits) -> Served {
     Served::start(&Settings { limits, ..Settings::default() })
 }
 
-fn head(server: &Served, length: &str) -> String {
+pub(crate) fn head(server: &Served, length: &str) -> String {
     let Served { port, token, .. } = server;
     format!(
         "POST /api/stand HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nAuthorization: Bearer {token}\r\n\

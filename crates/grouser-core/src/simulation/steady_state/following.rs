@@ -30,9 +30,10 @@ const FIRST_STEP: f64 = 1e-3;
 /// taken again, and how much shorter [-].
 const MOST_MISSED: f64 = 1.5;
 const SHORTER: f64 = 0.25;
-/// How far the tangent may miss the end of the next step, expected to be in proportion to its
-/// length: less than the first is no reason for a short one, and the second is [-].
-const MISSED: (f64, f64) = (0.1, 1.0);
+/// How far the tangent may miss the end of the next step, over the accelerations at its start [-],
+/// expected to be in proportion to its length. Longer steps as where it misses by less were tried: of
+/// two ways to turn on the spot they lead to the other.
+const MISSED: f64 = 1.0;
 /// A step is this much shorter where it has no end, or one that the rover would not come to.
 const MUCH_SHORTER: f64 = 0.1;
 /// The least and the most that a step is as long as the one before it [-].
@@ -126,8 +127,8 @@ impl SteadySolver<'_, '_> {
             let fading = size(&acceleration) / size(&reached);
             // Accelerations that stay, as of a start, are followed by shares of the way.
             let share = (LITTLE / self.size(&step)).min(most_longer);
-            let longer = fading.max(MISSED.0 / missed).min(CHANGE.1).max(share);
-            let next_span = span * longer.min(MISSED.1 / missed).max(CHANGE.0);
+            let longer = fading.min(CHANGE.1).max(share);
+            let next_span = span * longer.min(MISSED / missed).max(CHANGE.0);
             return Some(Followed { velocities: from + step, there, next_span });
         }
         None
