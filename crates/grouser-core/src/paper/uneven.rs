@@ -1,12 +1,14 @@
 //! The paper's rover on uneven ground, which it never met: its wheels settle together as they do in
 //! turns.
 
+use std::f64::consts::FRAC_PI_6;
+
 use crate::contact::Slip;
 use crate::random::Random;
 use crate::simulation::Scenario;
 use crate::terrain::Ground;
 use crate::terrain::surface::{Ripple, Surface};
-use crate::units::{Vec2, Vec3, deg};
+use crate::units::{Vec2, Vec3};
 use crate::vehicle::standing::{KnownStanding, NearbyStanding};
 use crate::vehicle::{LoadSharing, OwnMoments, Rover, RoverState, Suspension, WheelReaction};
 
@@ -22,7 +24,7 @@ fn wheels_settle_together_as_they_do_in_turns() {
         for case in 0..60 {
             let mut draws = Random::stream(7, 100 * number as u64 + case);
             let (amplitude, wavelength) = (0.05 * draws.uniform(), 0.5 + 2.0 * draws.uniform());
-            let ripple = Ripple { amplitude, wavelength, across: deg(30.0), phase: 0.4 };
+            let ripple = Ripple { amplitude, wavelength, across: FRAC_PI_6, phase: 0.4 };
             let mut scenario = scenario_of(rover, ripple);
             scenario.ground.start = Vec2::new(draws.uniform(), draws.uniform());
             let Some((together, wheel, in_turns)) = both(&scenario, &mut draws) else {
