@@ -43,7 +43,7 @@ type Rule = fn(&Sources) -> usize;
 /// drives by hand, trials left out and what newcomers asked of the console 530, and its first two views
 /// without a server 130.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 130_950, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 131_000, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 9_100, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 18, |all| {
