@@ -41,7 +41,7 @@ where
     zero_from(f, (guess.clone(), start), inverse, size, longest, is_zero)
 }
 
-/// The same from a point whose values are known.
+/// The zero nearest to a guess, as [`zero_near`] finds it, from values that are known there.
 pub fn zero_from<T, D: Dim>(
     f: impl Fn(&OVector<f64, D>) -> Option<(OVector<f64, D>, T)>,
     (mut at, (mut here, mut value)): (OVector<f64, D>, (OVector<f64, D>, T)),

@@ -535,7 +535,7 @@ impl<'a> Equations<'a> {
         self.attempt_by(Search::Nearby, state)
     }
 
-    /// The same beside the last attempt, for a difference: to first order in how far.
+    /// Attempts a state beside the last attempt, for a difference: to first order in how far it is.
     pub(super) fn attempt_beside(&self, state: &RoverState) -> Option<Evaluation> {
         self.attempt_by(Search::Beside, state)
     }

@@ -222,8 +222,9 @@ impl Run {
     ///
     /// The models know no shear that builds up with the way: a wheel that stands, or moves against
     /// its rim, has a slip ratio of 1 or more at once, and near the limit of its thrust digs there
-    /// for ever, where a real one passes through the slip at which it pulls most. Missions do so after
-    /// each look of their controller, and so may whoever leads a run by [`step`](Self::step).
+    /// for ever, where a real one passes through the slip at which it pulls most. Missions call this
+    /// after each look of their controller; a program that leads a run by [`step`](Self::step) may,
+    /// too.
     ///
     /// * `before`: speeds of the rims before [m/s]
     pub fn start_rolling(&mut self, before: &[f64]) {

@@ -293,7 +293,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         self.correct_from(yaw, guess, here, inverse, LONGEST)
     }
 
-    /// The same from where the motion was looked at already.
+    /// The steady state nearest to a guess where the motion was looked at already.
     ///
     /// * `longest`: step over the fastest rim's speed [-]
     fn correct_from(

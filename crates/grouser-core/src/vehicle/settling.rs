@@ -156,8 +156,8 @@ impl OnGround<'_> {
         None
     }
 
-    /// The same of a motion beside the one that is known, by one look at every wheel: to first order
-    /// in how far it is, as differences need it. None where that is not known to so much.
+    /// The reaction in a motion beside the one that is known, by one look at every wheel: to first
+    /// order in how far it is, as differences need it. None where the other tells too little.
     pub(super) fn settle_beside(
         &self,
         stance: &Stance,

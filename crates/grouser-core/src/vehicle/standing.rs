@@ -172,8 +172,8 @@ impl OnGround<'_> {
         Ok(wheels)
     }
 
-    /// The same of a motion beside the one that is known, which stays known: to first order in how
-    /// far it is, by one look at every wheel.
+    /// The reaction in a motion beside the one that is known, by one look at every wheel: to first
+    /// order in how far it is. The other stays known, unless it tells too little.
     ///
     /// # Errors
     /// The same as [`reactions_standing`](Self::reactions_standing).

@@ -103,7 +103,7 @@ impl Balance {
             return None;
         }
         let ways = ways(rover, posture);
-        let (matrix, side) = self.equations(rover, posture, weight, &[]);
+        let (matrix, side) = self.equations_of(&ways, (rover, posture), weight, &[]);
         let inverse = right_inverse(&matrix)?;
         let each = posture.wheels.iter().zip(rover.mounts()).zip(ways);
         let by_forces = each.map(|((wheel, mount), ways)| {
@@ -154,11 +154,22 @@ impl Balance {
         weight: Vec3,
         forces: &[WheelForces],
     ) -> (DMatrix<f64>, DVector<f64>) {
+        self.equations_of(&ways(rover, posture), (rover, posture), weight, forces)
+    }
+
+    /// The equations of wheels that move so with each freedom.
+    fn equations_of(
+        self,
+        ways: &[Vec<Twist>],
+        (rover, posture): (&Rover, &Posture),
+        weight: Vec3,
+        forces: &[WheelForces],
+    ) -> (DMatrix<f64>, DVector<f64>) {
         let mut matrix = DMatrix::zeros(posture.freedoms(), posture.wheels.len());
         let mut side = DVector::zeros(posture.freedoms());
         side[0] = weight.dot(&posture.axes()[2]);
         let still = WheelForces::default();
-        let each = posture.wheels.iter().zip(rover.mounts()).zip(ways(rover, posture));
+        let each = posture.wheels.iter().zip(rover.mounts()).zip(ways);
         for (column, ((wheel, mount), ways)) in each.enumerate() {
             let forces = forces.get(column).unwrap_or(&still);
             let (force, moment) = self.along(wheel, mount.shearing_radius(), forces);
