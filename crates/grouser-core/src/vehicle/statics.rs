@@ -85,7 +85,8 @@ impl Balance {
             let into = weight.dot(&posture.axes()[2]);
             return Ok(vec![into / posture.wheels.len() as f64; posture.wheels.len()]);
         }
-        let (matrix, side) = self.equations(rover, posture, weight, forces);
+        let (matrix, side) =
+            self.equations(&ways(rover, posture), (rover, posture), weight, forces);
         least_norm(&matrix, &side).ok_or(Tipping)
     }
 
@@ -103,7 +104,7 @@ impl Balance {
             return None;
         }
         let ways = ways(rover, posture);
-        let (matrix, side) = self.equations_of(&ways, (rover, posture), weight, &[]);
+        let (matrix, side) = self.equations(&ways, (rover, posture), weight, &[]);
         let inverse = right_inverse(&matrix)?;
         let each = posture.wheels.iter().zip(rover.mounts()).zip(ways);
         let by_forces = each.map(|((wheel, mount), ways)| {
@@ -137,7 +138,8 @@ impl Balance {
         if self.sharing == LoadSharing::Uniform || posture.freedoms() >= posture.wheels.len() {
             return None;
         }
-        let (matrix, side) = self.equations(rover, posture, weight, forces);
+        let (matrix, side) =
+            self.equations(&ways(rover, posture), (rover, posture), weight, forces);
         let mut others = matrix.clone();
         others.column_mut(lifted).fill(0.0);
         let solved = (&others * others.transpose()).lu().solve(&side)?;
@@ -147,18 +149,9 @@ impl Balance {
 
     /// What each wheel's load does in the balance of each freedom, a row, and what the loads
     /// together have to do there.
+    ///
+    /// * `ways`: how each wheel moves with each freedom
     fn equations(
-        self,
-        rover: &Rover,
-        posture: &Posture,
-        weight: Vec3,
-        forces: &[WheelForces],
-    ) -> (DMatrix<f64>, DVector<f64>) {
-        self.equations_of(&ways(rover, posture), (rover, posture), weight, forces)
-    }
-
-    /// The equations of wheels that move so with each freedom.
-    fn equations_of(
         self,
         ways: &[Vec<Twist>],
         (rover, posture): (&Rover, &Posture),
