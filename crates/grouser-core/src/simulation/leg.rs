@@ -117,8 +117,8 @@ impl Leg<'_> {
         times: &[f64],
     ) -> Result<Carried, Ended> {
         let mut point = self.state.point;
-        let horizon = self.kept_until - self.state.time;
-        let started = SteadyRun::from(equations, carried, &mut point, horizon, self.is_new_command);
+        let (time, is_new) = (self.state.time, self.is_new_command);
+        let started = SteadyRun::from(equations, carried, &mut point, time, is_new);
         let mut motion = started.map_err(Ended::NotSteady)?;
         if times.is_empty() {
             // A run starts steady: what its start would cost the motors is not in the energy
@@ -129,8 +129,8 @@ impl Leg<'_> {
             let _ = self.look(equations, 0.0, &point, &slips, &wheels).map_err(Ended::Failed)?;
         }
         for &time in times {
-            let span = time - self.state.time;
-            let advanced = motion.advance(&mut point, span, self.kept_until - self.state.time);
+            let times = [self.state.time, time];
+            let advanced = motion.advance(&mut point, times, self.kept_until);
             advanced.map_err(Ended::NotSteady)?;
             let wheels = || Ok(motion.wheels(&point));
             let slips = motion.slips(equations, &point);

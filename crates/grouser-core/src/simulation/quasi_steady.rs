@@ -9,8 +9,12 @@
 //!
 //! They are tabulated over the stretch of yaw ahead, as polynomials through steady states found
 //! there, and the pose follows from the table. So the work goes with the yaw that a rover turns
-//! through, not with the way it drives: one that keeps its yaw costs one steady state, however far
+//! through, not with the way it drives: one that keeps its yaw costs two steady states, however far
 //! it goes.
+//!
+//! Neither the stretches nor the steps of the pose depend on when somebody looks: a look within a
+//! step takes a part of it, and the step goes on from its start. So a run has the same bits however
+//! it is cut into advances.
 
 use nalgebra::Vector3;
 
@@ -35,22 +39,34 @@ pub const MOST_LAG: f64 = 0.01;
 /// or yaw and velocities would not be a slow and a fast motion. Source: ours.
 pub const MOST_COUPLING: f64 = 0.1;
 
-/// A yaw that will change by less than this is held [rad]: over ten metres of way, 0.1 µm.
+/// A yaw rate below this is none but for rounding, over the fastest rim's speed [-].
+const ROUNDING: f64 = 1e-12;
+/// A yaw that has changed by less than this is held [rad]: over ten metres of way, 0.1 µm.
 const HELD: f64 = 1e-8;
 /// Over so little yaw velocities change in proportion [rad]: a tenth of a degree.
 const LINEAR: f64 = 1.75e-3;
+/// The first stretch under a command is what the rover turns through in this [s]: commands may
+/// change every few hundredths of a second. Source: ours, as are the next two.
+const FIRST_STRETCH: f64 = 0.03;
+/// A stretch is at most so many times as long as the one before it [-].
+const GROWTH: f64 = 20.0;
 /// The longest stretch of yaw with one polynomial [rad].
 const LONGEST_STRETCH: f64 = 0.1;
-/// A stretch reaches further than the yaw rate at its start would need, by this factor [-].
-const AMPLE: f64 = 1.25;
 /// Parabolas through three steady states must meet those between them to this, over the fastest
 /// rim's speed [-]. The polynomial through all five is nearer by a hundred times where motion is
-/// smooth.
+/// smooth. It is ten times what a parabola misses there whose middle is off the chord by as much as
+/// this over the stretch's width in radians, which then needs no others.
 const RESOLVED: f64 = 1e-5;
-/// A step in time turns the rover by at most this share of a stretch [-].
+/// A step in time turns the rover by at most this share of a stretch [-], or of one of two steady
+/// states.
 const STEP_SHARE: f64 = 0.1;
+const LINEAR_STEP_SHARE: f64 = 0.5;
+/// The longest step in time [s].
+const LONGEST_STEP: f64 = 0.1;
+/// A stretch this near to its end is at its end [-].
+const AT_END: f64 = 0.01;
 
-/// Steady states over a stretch of yaw, evenly spaced: one, two or five.
+/// Steady states over a stretch of yaw, evenly spaced: one, two, three or five.
 #[derive(Clone)]
 pub(super) struct Stretch {
     nodes: Vec<SteadyState>,
@@ -62,22 +78,41 @@ pub(super) struct Stretch {
 
 stored!(struct Stretch { nodes, width, reach });
 
+/// A step in time on which the rover is.
+#[derive(Clone, Copy)]
+struct Step {
+    /// Where and when [s] it began.
+    from: Point,
+    time: f64,
+    /// Where the rover was last seen.
+    seen: Point,
+}
+
+stored!(struct Step { from, time, seen });
+
+impl Step {
+    fn at(point: &Point, time: f64) -> Self {
+        Self { from: *point, time, seen: *point }
+    }
+}
+
 /// What one run hands on from one advance to the next.
 #[derive(Clone)]
 pub(super) struct Carried {
     memory: Memory,
     stretch: Stretch,
+    step: Step,
     /// Velocities with which the rims would roll.
     rolled: Vector3<f64>,
 }
 
-stored!(struct Carried { memory, stretch, rolled });
+stored!(struct Carried { memory, stretch, step, rolled });
 
 impl Carried {
     /// Whether a rover with so many wheels can have it.
     pub(super) fn is_of(&self, count: usize) -> bool {
         let nodes = &self.stretch.nodes;
-        matches!(nodes.len(), 1 | 2 | 5) && nodes.iter().all(|node| node.wheels.len() == count)
+        matches!(nodes.len(), 1 | 2 | 3 | 5) && nodes.iter().all(|node| node.wheels.len() == count)
     }
 
     /// The wheels at a point of the motion, if it is one of steady states.
@@ -91,19 +126,20 @@ pub(super) struct QuasiSteady<'a, 'g> {
     equations: &'a Equations<'g>,
     solver: SteadySolver<'a, 'g>,
     stretch: Stretch,
+    step: Step,
 }
 
 impl<'a, 'g> QuasiSteady<'a, 'g> {
     /// The motion from a point on; sets the point's velocities to their steady state.
     ///
     /// * `before`: the run so far
-    /// * `horizon`: how long the rims will keep their speeds [s]
+    /// * `time`: now [s]
     /// * `rims_changed`: whether they were others so far
     pub(super) fn from(
         equations: &'a Equations<'g>,
         before: Before<Carried>,
         point: &mut Point,
-        horizon: f64,
+        time: f64,
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
         if equations.has_uneven_soil() {
@@ -111,9 +147,9 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
         }
         let yaw = point.state.yaw;
         let (memory, before) = match before {
-            Before::Steady(Carried { memory, stretch, .. }) if !rims_changed => {
+            Before::Steady(Carried { memory, stretch, step, .. }) if !rims_changed => {
                 let solver = SteadySolver::new(equations, memory);
-                return Ok(Self { equations, solver, stretch });
+                return Ok(Self { equations, solver, stretch, step });
             }
             Before::Steady(Carried { memory, rolled, .. }) => (memory, Before::Steady(rolled)),
             Before::Another => (Memory::default(), Before::Another),
@@ -121,9 +157,10 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
         };
         let mut solver = SteadySolver::new(equations, memory);
         let here = solver.find_after(yaw, &point.velocities(), before)?;
-        let stretch = Stretch::ahead(&mut solver, here, horizon)?;
-        let mut motion = Self { equations, solver, stretch };
+        let stretch = Stretch::first(&mut solver, here)?;
+        let mut motion = Self { equations, solver, stretch, step: Step::at(point, time) };
         motion.set_velocities(point);
+        motion.step = Step::at(point, time);
         Ok(motion)
     }
 
@@ -131,7 +168,7 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
     pub(super) fn carry(self) -> Carried {
         let rolled = rolling(self.equations);
         let memory = self.solver.memory();
-        Carried { memory, stretch: self.stretch, rolled }
+        Carried { memory, stretch: self.stretch, step: self.step, rolled }
     }
 
     /// The wheels at a point of the motion.
@@ -141,46 +178,60 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
 
     /// Goes on for a while.
     ///
-    /// * `span`: how long [s]
-    /// * `horizon`: how long the rims will keep their speeds [s], at least the span
+    /// * `from`, `until`: from now to then [s]
     pub(super) fn advance(
         &mut self,
         point: &mut Point,
-        span: f64,
-        horizon: f64,
+        [from, until]: [f64; 2],
     ) -> Result<(), NotSteady> {
-        let mut gone = 0.0;
-        while gone < span {
+        if self.step.seen != *point {
+            self.step = Step::at(point, from);
+        }
+        loop {
             if self.equations.is_spent() {
                 return Err(NotSteady::NoSteadyState);
             }
-            let yaw = point.state.yaw;
-            let rate = self.stretch.velocities(yaw).z;
-            let longest = STEP_SHARE * self.stretch.width.abs() / rate.abs();
-            let left = span - gone;
-            let step = if self.stretch.nodes.len() > 1 { left.min(longest) } else { left };
-            if !self.stretch.covers(yaw + rate * step) {
-                let here = self.solver.find(yaw, &self.stretch.velocities(yaw))?;
-                self.stretch = Stretch::ahead(&mut self.solver, here, horizon - gone)?;
+            let Some(span) = self.stretch.step_from(self.step.from.state.yaw) else {
+                self.stretch = self.stretch_on()?;
                 continue;
+            };
+            let end = self.step.time + span;
+            if until < end {
+                break;
             }
-            self.step(point, step);
-            gone = if step < left { gone + step } else { span };
+            self.step = Step::at(&self.stepped(span), end);
         }
+        *point = self.stepped(until - self.step.time);
+        self.step.seen = *point;
         Ok(())
     }
 
-    /// One Runge-Kutta step of the pose and the energies, on the table.
-    fn step(&mut self, point: &mut Point, step: f64) {
+    /// The stretch after the one that ends where the step begins.
+    fn stretch_on(&mut self) -> Result<Stretch, NotSteady> {
+        let yaw = self.step.from.state.yaw;
+        let most = GROWTH * self.stretch.width.abs().max(self.stretch.reach);
+        let here = match self.stretch.end_at(yaw) {
+            Some(end) => end.clone(),
+            None => self.solver.find(yaw, &self.stretch.velocities(yaw))?,
+        };
+        Stretch::ahead(&mut self.solver, here, most)
+    }
+
+    /// Where a step leads: one Runge-Kutta step of the pose and the energies, on the table.
+    fn stepped(&self, span: f64) -> Point {
+        let mut point = self.step.from;
+        if span == 0.0 {
+            return point;
+        }
         self.equations.count(|work| work.steps += 1);
         let yaw = point.state.yaw;
         let k_1 = self.stretch.rates(yaw);
-        let k_2 = self.stretch.rates(yaw + 0.5 * step * k_1.yaw_rate);
-        let k_3 = self.stretch.rates(yaw + 0.5 * step * k_2.yaw_rate);
-        let k_4 = self.stretch.rates(yaw + step * k_3.yaw_rate);
+        let k_2 = self.stretch.rates(yaw + 0.5 * span * k_1.yaw_rate);
+        let k_3 = self.stretch.rates(yaw + 0.5 * span * k_2.yaw_rate);
+        let k_4 = self.stretch.rates(yaw + span * k_3.yaw_rate);
         let stages = [(1.0, k_1), (2.0, k_2), (2.0, k_3), (1.0, k_4)];
         for (weight, k) in stages {
-            let share = weight * step / 6.0;
+            let share = weight * span / 6.0;
             point.state.position += k.velocity_slope * share;
             point.state.yaw += k.yaw_rate * share;
             let [motors, soil, electrical] = k.powers;
@@ -188,11 +239,12 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
             point.soil += soil * share;
             point.electrical += electrical * share;
         }
-        self.set_velocities(point);
+        self.set_velocities(&mut point);
+        point
     }
 
     /// Sets velocities to their steady state, which itself leaves nothing over to accelerate with.
-    fn set_velocities(&mut self, point: &mut Point) {
+    fn set_velocities(&self, point: &mut Point) {
         point.turning = self.stretch.turning(point.state.yaw);
         let velocities = self.stretch.velocities(point.state.yaw);
         point.jump(self.equations.rover(), |state| {
@@ -211,22 +263,37 @@ struct PoseRates {
 }
 
 impl Stretch {
+    /// The stretch with which a motion begins.
+    fn first(solver: &mut SteadySolver<'_, '_>, here: SteadyState) -> Result<Self, NotSteady> {
+        let most = FIRST_STRETCH * here.velocities.z.abs();
+        if most > HELD {
+            return Self::ahead(solver, here, most);
+        }
+        solver.settling_time(&here)?;
+        Ok(Self::held(solver, here))
+    }
+
+    /// A stretch of one steady state, which holds nearby; on level ground, where no yaw differs from
+    /// another, everywhere.
+    fn held(solver: &SteadySolver<'_, '_>, here: SteadyState) -> Self {
+        let reach = if solver.is_level() { f64::INFINITY } else { HELD };
+        Self { nodes: vec![here], width: 0.0, reach }
+    }
+
     /// The stretch that the rover will turn through from a steady state on.
+    ///
+    /// * `most`: its width [rad], if that is resolved
     fn ahead(
         solver: &mut SteadySolver<'_, '_>,
         here: SteadyState,
-        horizon: f64,
+        most: f64,
     ) -> Result<Self, NotSteady> {
         let settling_time = solver.settling_time(&here)?;
         let rate = here.velocities.z;
-        // On level ground no yaw differs from another.
-        if solver.is_level() {
-            return Ok(Self { nodes: vec![here], width: 0.0, reach: f64::INFINITY });
+        if solver.is_level() || solver.size(&Vector3::new(0.0, 0.0, rate)) <= ROUNDING {
+            return Ok(Self::held(solver, here));
         }
-        if rate.abs() * horizon <= HELD {
-            return Ok(Self { nodes: vec![here], width: 0.0, reach: AMPLE * HELD });
-        }
-        let width = (AMPLE * rate * horizon).clamp(-LONGEST_STRETCH, LONGEST_STRETCH);
+        let width = most.min(LONGEST_STRETCH).copysign(rate);
         let stretch = Self::through(solver, here, width)?;
         stretch.check(solver, settling_time, rate)?;
         Ok(stretch)
@@ -240,8 +307,10 @@ impl Stretch {
     ) -> Result<Self, NotSteady> {
         let mut known = vec![(0.0, here)];
         while width.abs() > LINEAR {
-            if fill(solver, &mut known, width, &QUARTERS).is_ok()
-                && roughness(solver, &known) <= RESOLVED
+            if fill(solver, &mut known, width, &[1.0, 0.5]).is_ok()
+                && (known.len() == 3 && bend(solver, &known) * width.abs() <= RESOLVED
+                    || fill(solver, &mut known, width, &QUARTERS).is_ok()
+                        && roughness(solver, &known) <= RESOLVED)
             {
                 let nodes = known.into_iter().map(|(_, steady)| steady).collect();
                 return Ok(Self { nodes, width, reach: 0.0 });
@@ -293,19 +362,34 @@ impl Stretch {
         if self.width == 0.0 { 0.0 } else { (yaw - self.nodes[0].yaw) / self.width }
     }
 
-    /// Whether a yaw is on the stretch. A little before its start counts: a rover that swings back
-    /// by rounding is still where it was.
-    fn covers(&self, yaw: f64) -> bool {
+    /// How long the next step is from a yaw on [s]; none where the stretch ends there.
+    fn step_from(&self, yaw: f64) -> Option<f64> {
         if self.width == 0.0 {
-            return (yaw - self.nodes[0].yaw).abs() <= self.reach;
+            let is_held = (yaw - self.nodes[0].yaw).abs() <= self.reach;
+            return is_held.then_some(LONGEST_STEP);
         }
-        (-0.05..=1.0).contains(&self.share(yaw))
+        let (share, rate) = (self.share(yaw), self.velocities(yaw).z / self.width);
+        let left = if rate < 0.0 { share } else { 1.0 - share };
+        let is_on = (-AT_END..=1.0 + AT_END).contains(&share) && left > AT_END;
+        let most = if self.nodes.len() == 2 { LINEAR_STEP_SHARE } else { STEP_SHARE };
+        // A rate of zero lasts for ever.
+        is_on.then(|| (left.min(most) / rate.abs()).min(LONGEST_STEP))
+    }
+
+    /// The steady state at whose yaw the stretch ends, if the rover turns on there.
+    fn end_at(&self, yaw: f64) -> Option<&SteadyState> {
+        let (share, rate) = (self.share(yaw), self.velocities(yaw).z);
+        let is_first = rate * self.width < 0.0;
+        let (at, end) = if is_first { (0.0, self.nodes.first()) } else { (1.0, self.nodes.last()) };
+        let is_near = self.width != 0.0 && (share - at).abs() <= AT_END;
+        end.filter(|end| is_near && end.velocities.z * rate > 0.0)
     }
 
     fn weights(&self, yaw: f64) -> [f64; 5] {
         match self.nodes.len() {
             1 => [1.0, 0.0, 0.0, 0.0, 0.0],
             2 => lagrange::weights(&[0.0, 1.0], self.share(yaw)),
+            3 => lagrange::weights(&[0.0, 0.5, 1.0], self.share(yaw)),
             _ => lagrange::weights(&QUARTERS, self.share(yaw)),
         }
     }
@@ -366,6 +450,13 @@ fn fill(
         known.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     }
     Ok(())
+}
+
+/// How far the middle one of three steady states is off the chord between the others, over the
+/// fastest rim's speed [-].
+fn bend(solver: &SteadySolver<'_, '_>, nodes: &[(f64, SteadyState)]) -> f64 {
+    let [first, middle, last] = [0, 1, 2].map(|at| nodes[at].1.velocities);
+    solver.size(&(middle - 0.5 * (first + last)))
 }
 
 /// How far parabolas through the first, the middle and the last of five steady states miss the

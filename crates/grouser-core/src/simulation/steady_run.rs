@@ -58,13 +58,13 @@ impl<'a, 'g> SteadyRun<'a, 'g> {
     /// The motion from a point on; sets the point's velocities to their steady state.
     ///
     /// * `carried`: of the run so far
-    /// * `horizon`: how long the rims will keep their speeds [s]
+    /// * `time`: now [s]
     /// * `rims_changed`: whether they were others so far
     pub(super) fn from(
         equations: &'a Equations<'g>,
         carried: Carried,
         point: &mut Point,
-        horizon: f64,
+        time: f64,
         rims_changed: bool,
     ) -> Result<Self, NotSteady> {
         if equations.has_relief() {
@@ -81,23 +81,23 @@ impl<'a, 'g> SteadyRun<'a, 'g> {
             Carried::Velocities | Carried::Uneven(_) => Before::Another,
             Carried::Plane(carried) => Before::Steady(carried),
         };
-        let motion = QuasiSteady::from(equations, before, point, horizon, rims_changed)?;
+        let motion = QuasiSteady::from(equations, before, point, time, rims_changed)?;
         Ok(Self::Plane(Box::new(motion)))
     }
 
     /// Goes on for a while.
     ///
-    /// * `span`: how long [s]
-    /// * `horizon`: how long the rims will keep their speeds [s], at least the span
+    /// * `from`, `until`: from now to then [s]
+    /// * `kept_until`: until when the rims will keep their speeds [s], not before that
     pub(super) fn advance(
         &mut self,
         point: &mut Point,
-        span: f64,
-        horizon: f64,
+        [from, until]: [f64; 2],
+        kept_until: f64,
     ) -> Result<(), NotSteady> {
         match self {
-            Self::Plane(motion) => motion.advance(point, span, horizon),
-            Self::Uneven(motion) => motion.advance(point, span, horizon),
+            Self::Plane(motion) => motion.advance(point, [from, until]),
+            Self::Uneven(motion) => motion.advance(point, until - from, kept_until - from),
         }
     }
 

@@ -14,6 +14,8 @@
 
 mod following;
 
+use self::following::Arrival;
+
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::equations::{Equations, Evaluation};
@@ -149,6 +151,10 @@ pub const MOST_SLIP: f64 = 0.9;
 /// in the Moon's gravity half of this.)
 pub const LONGEST_SETTLING: f64 = 0.1;
 
+/// And those that take longer to come near their steady state from others [s]. Source: ours; four
+/// times that, in which a disturbance fades to a fiftieth.
+const LONGEST_WAY: f64 = 4.0 * LONGEST_SETTLING;
+
 /// Rims that turn faster by such a factor move the rover alike [-]. Source: ours; at most as a
 /// guess.
 const SIMILAR: std::ops::RangeInclusive<f64> = 0.2..=5.0;
@@ -227,7 +233,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
             return self.find_turning(yaw, guess).ok_or(NotSteady::NoSteadyState);
         }
         let close = self.find_close(yaw, guess);
-        close.or_else(|| self.settle(yaw, guess, 0.0)).ok_or(NotSteady::NoSteadyState)
+        let settled = || self.settle(yaw, guess, 0.0).map(|it| it.steady);
+        close.or_else(settled).ok_or(NotSteady::NoSteadyState)
     }
 
     /// The steady state with which a motion begins, or goes on after a change of the rims' speeds.
@@ -262,7 +269,9 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
             // Motors that droop turn the rims in their own time.
             return self.find(yaw, &rolling);
         }
-        self.settle(yaw, now, MOST_LONGER).ok_or(NotSteady::NoSteadyState)
+        let Arrival { steady, time } =
+            self.settle(yaw, now, MOST_LONGER).ok_or(NotSteady::NoSteadyState)?;
+        if time > LONGEST_WAY { Err(NotSteady::Slow { settling_time: time }) } else { Ok(steady) }
     }
 
     /// Whether no wheel is to turn.
@@ -332,7 +341,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
             return Some(steady);
         }
         // From where motors would lead that hold their speeds.
-        let held = self.settle(yaw, guess, 0.0)?;
+        let held = self.settle(yaw, guess, 0.0)?.steady;
         self.find_turning_anew(yaw, &joined(&held.velocities, set.rim_speeds()))
     }
 

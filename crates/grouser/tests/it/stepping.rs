@@ -82,7 +82,32 @@ fn short_steps_add_up_to_long_ones() {
     let long = led(&scenario, 0.4, &WILD);
     let each_four_times: Vec<_> = WILD.iter().flat_map(|command| [*command; 4]).collect();
     let short = led(&scenario, 0.1, &each_four_times);
-    assert!(apart(&long.now().state, &short.now().state) < TOLERANCE);
+    assert_eq!(long.now(), short.now());
+}
+
+/// In a quasi-steady run on a plane any cutting has the same bits, those of the energies too.
+#[test]
+fn quasi_steady_steps_have_the_same_bits_however_they_are_cut() {
+    let kept: [[f64; 4]; 5] = [WILD[0], WILD[1], WILD[2], WILD[4], WILD[5]];
+    for slope in [0.0, deg(10.0)] {
+        let base = traverse(slope, deg(3.0));
+        let numerics = Numerics { approach: Approach::QuasiSteady, ..base.numerics };
+        let scenario = Scenario { numerics, ..base };
+        let whole = led(&scenario, 2.0, &kept);
+        assert_eq!(*whole.state().method(), Method::QuasiSteady);
+        for cuts in [vec![0.5; 4], vec![0.02; 100], vec![0.013, 0.7, 0.287, 0.999, 0.001]] {
+            let mut rover = simulator(&scenario);
+            for command in &kept {
+                for span in &cuts {
+                    rover.step(command, *span).expect("a step");
+                }
+            }
+            let (now, there) = (rover.now(), whole.now());
+            assert_eq!((now.state, now.energy), (there.state, there.energy), "{} cuts", cuts.len());
+            let [cut, uncut] = [rover.state().work(), whole.state().work()];
+            assert_eq!(cut.evaluations, uncut.evaluations, "the work is that of one step");
+        }
+    }
 }
 
 /// Speeds that change at every step of 20 ms: a tolerance a thousand times as tight leads to the
