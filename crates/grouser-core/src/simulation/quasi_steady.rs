@@ -80,7 +80,7 @@ stored!(struct Stretch { nodes, width, reach });
 
 /// A step in time on which the rover is.
 #[derive(Clone, Copy)]
-struct Step {
+struct BegunStep {
     /// Where and when [s] it began.
     from: Point,
     time: f64,
@@ -88,9 +88,9 @@ struct Step {
     seen: Point,
 }
 
-stored!(struct Step { from, time, seen });
+stored!(struct BegunStep { from, time, seen });
 
-impl Step {
+impl BegunStep {
     fn at(point: &Point, time: f64) -> Self {
         Self { from: *point, time, seen: *point }
     }
@@ -101,7 +101,7 @@ impl Step {
 pub(super) struct Carried {
     memory: Memory,
     stretch: Stretch,
-    step: Step,
+    step: BegunStep,
     /// Velocities with which the rims would roll.
     rolled: Vector3<f64>,
 }
@@ -126,7 +126,7 @@ pub(super) struct QuasiSteady<'a, 'g> {
     equations: &'a Equations<'g>,
     solver: SteadySolver<'a, 'g>,
     stretch: Stretch,
-    step: Step,
+    step: BegunStep,
 }
 
 impl<'a, 'g> QuasiSteady<'a, 'g> {
@@ -158,9 +158,9 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
         let mut solver = SteadySolver::new(equations, memory);
         let here = solver.find_after(yaw, &point.velocities(), before)?;
         let stretch = Stretch::first(&mut solver, here)?;
-        let mut motion = Self { equations, solver, stretch, step: Step::at(point, time) };
+        let mut motion = Self { equations, solver, stretch, step: BegunStep::at(point, time) };
         motion.set_velocities(point);
-        motion.step = Step::at(point, time);
+        motion.step = BegunStep::at(point, time);
         Ok(motion)
     }
 
@@ -185,7 +185,7 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
         [from, until]: [f64; 2],
     ) -> Result<(), NotSteady> {
         if self.step.seen != *point {
-            self.step = Step::at(point, from);
+            self.step = BegunStep::at(point, from);
         }
         loop {
             if self.equations.is_spent() {
@@ -199,7 +199,7 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
             if until < end {
                 break;
             }
-            self.step = Step::at(&self.stepped(span), end);
+            self.step = BegunStep::at(&self.stepped(span), end);
         }
         *point = self.stepped(until - self.step.time);
         self.step.seen = *point;

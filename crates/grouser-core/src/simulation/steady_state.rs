@@ -14,8 +14,6 @@
 
 mod following;
 
-use self::following::Arrival;
-
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::equations::{Equations, Evaluation};
@@ -105,6 +103,12 @@ pub(super) struct SteadyState {
 }
 
 stored!(struct SteadyState { yaw, velocities, powers, wheels, turning });
+
+/// A steady state, and the time in which a rover comes near it [s].
+struct ReachedState {
+    steady: SteadyState,
+    time: f64,
+}
 
 /// Finds steady states, each from the one before.
 pub(super) struct SteadySolver<'a, 'g> {
@@ -269,7 +273,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
             // Motors that droop turn the rims in their own time.
             return self.find(yaw, &rolling);
         }
-        let Arrival { steady, time } =
+        let ReachedState { steady, time } =
             self.settle(yaw, now, MOST_LONGER).ok_or(NotSteady::NoSteadyState)?;
         if time > LONGEST_WAY { Err(NotSteady::Slow { settling_time: time }) } else { Ok(steady) }
     }

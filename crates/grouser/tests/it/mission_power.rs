@@ -116,7 +116,8 @@ fn missions_stop_where_current_temperature_or_discharge_pass_their_limit() {
                 let time = report.legs[0].time;
                 assert!((time - passed.time).abs() < 1e-6, "{what:?}: {time} s, {} s", passed.time);
                 let expected = limited(passed, what);
-                assert!((value - expected).abs() < 1e-9, "{what:?}: {value}, {expected}");
+                // Steady states are sought within 1e-7 of the rims' speed.
+                assert!((value - expected).abs() < 1e-8, "{what:?}: {value}, {expected}");
                 let begun = if then == Then::NextLeg { 3 } else { 1 };
                 assert_eq!(report.legs.len(), begun, "{what:?}, {then:?}");
                 let back = report.legs[0].back_out.as_ref().map(|back| back.distance);

@@ -583,7 +583,7 @@ fn motors_cost_at_most_twice_a_dynamic_run() {
     let stiff = SpeedControl { gain: 1000.0, ..PROPORTIONAL };
     let cases = [
         (Approach::Dynamic, 20.0, [(PROPORTIONAL, 1.7), (stiff, 1.7), (integral, 2.1)]),
-        (Approach::QuasiSteady, 600.0, [(PROPORTIONAL, 1.8), (stiff, 1.7), (integral, 1.5)]),
+        (Approach::QuasiSteady, 600.0, [(PROPORTIONAL, 1.9), (stiff, 1.7), (integral, 1.5)]),
     ];
     for (approach, duration, controls) in cases {
         let work = |mut scenario: Scenario| {

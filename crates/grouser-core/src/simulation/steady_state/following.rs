@@ -11,7 +11,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{CLOSE, SteadySolver, SteadyState, acceleration_of, steady_state_at};
+use super::{CLOSE, ReachedState, SteadySolver, SteadyState, acceleration_of, steady_state_at};
 use crate::simulation::equations::Evaluation;
 
 /// A step that the tangent foresaw well enough.
@@ -21,12 +21,6 @@ struct Followed {
     /// How long it is, and the next one may be [s].
     span: f64,
     next_span: f64,
-}
-
-/// A steady state, and the time in which the rover comes near it [s].
-pub(super) struct Arrival {
-    pub(super) steady: SteadyState,
-    pub(super) time: f64,
 }
 
 /// Steps, those taken again included: past a place where a turn on the spot is almost steady, and on
@@ -64,7 +58,7 @@ impl SteadySolver<'_, '_> {
         yaw: f64,
         guess: &Vector3<f64>,
         most_longer: f64,
-    ) -> Option<Arrival> {
+    ) -> Option<ReachedState> {
         let mut velocities = *guess;
         let mut here = self.evaluate(yaw, &velocities)?;
         let (mut span, mut left) = (FIRST_STEP, MOST_STEPS);
@@ -76,7 +70,7 @@ impl SteadySolver<'_, '_> {
                 let far = |it: &Vector3<f64>| self.size(&(it - steady.velocities)) > ARRIVED;
                 let near = passed.iter().rposition(|(_, it)| far(it)).map_or(0, |last| last + 1);
                 let time = passed.get(near).map_or(time, |(time, _)| *time);
-                return Some(Arrival { steady, time });
+                return Some(ReachedState { steady, time });
             }
             let from = (&velocities, acceleration_of(&here));
             let step = self.follow(yaw, from, &jacobian, &mut left, (span, most_longer))?;
