@@ -728,6 +728,18 @@ def use_locked(looks, browser, server):
     context.close()
 
 
+def card_differs(page, server):
+    """What is wrong with the card that a button saves."""
+    with page.expect_download(timeout=120000) as saved:
+        page.locator("#card-pdf").click()
+    command = page.locator(".export pre", has_text="grouser card").inner_text()
+    words = command.replace("grouser ", f"'{server.program}' ", 1)
+    subprocess.run(words, shell=True, cwd=server.place.name, capture_output=True, check=True)
+    drawn = Path(server.place.name, "card.pdf").read_bytes()
+    is_same = Path(saved.value.path()).read_bytes() == drawn and drawn.startswith(b"%PDF")
+    return [] if is_same else [f"it is not that of {command}"]
+
+
 def slide_differs(page):
     """What is wrong with the picture that a key saves."""
     page.evaluate("document.activeElement.blur()")
@@ -784,6 +796,7 @@ def use(looks, browser, server):
     friction.fill("34.5")
     settled(page)
     looks.claim("a number of the soil moves the answer", numbers_differ(page, server))
+    looks.claim("a button saves the card of the program", card_differs(page, server))
     link = page.url.split("#")[1]
     friction.fill("99")
     page.wait_for_timeout(1000)

@@ -36,7 +36,8 @@ impl ConsoleServer {
         has_page: bool,
     ) -> PyResult<Self> {
         let address = IpAddr::from(Ipv4Addr::LOCALHOST);
-        let settings = Settings { folder, address, port, hosts, limits: Limits::default() };
+        let settings =
+            Settings { folder, address, port, hosts, card: None, limits: Limits::default() };
         let server = Server::bind(&settings).map_err(|error| of_serve(&error))?;
         let (address, port) = (server.address(), server.port());
         let page = Mutex::new(if has_page { server.browser_page().ok() } else { None });

@@ -39,6 +39,7 @@ import { LOST, answer, textOf } from "./engine.js";
  * @property {string} [verdict] what the answer says first
  * @property {number} [done] of it
  * @property {number | null} [all]
+ * @property {string} [pdf] a file, in base64
  * @property {number} [time_s]
  * @property {Record<string, string>} [files]
  */

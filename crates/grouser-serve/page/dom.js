@@ -86,12 +86,13 @@ export function picturesOf(all) {
 }
 
 /**
- * Offers a text as a file.
+ * Offers a text, or bytes, as a file.
  * @param {string} name
- * @param {string} content
+ * @param {string | Uint8Array<ArrayBuffer>} content
  */
 export function save(name, content) {
-  const url = URL.createObjectURL(new Blob([content], { type: "text/plain" }));
+  const type = typeof content === "string" ? "text/plain" : "application/octet-stream";
+  const url = URL.createObjectURL(new Blob([content], { type }));
   const link = element("a", { href: url, download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(url), 1000);

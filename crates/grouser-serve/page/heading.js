@@ -1,9 +1,10 @@
 // The first view: the heading that holds the contour on a slope, its verdict, and set-ups beside
 // each other.
 
-import { Asking } from "./api.js";
+import { Asking, ask } from "./api.js";
 import { draw } from "./chart.js";
 import { byId, element, four, save } from "./dom.js";
+import { DRAWS_CARDS } from "./engine.js";
 import { setOf } from "./session.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -232,7 +233,8 @@ export function chartOf(cards) {
 /**
  * What leads out of the page: the command, the documents, the card, what is assumed.
  * @param {Line | undefined} shown
- * @param {string | undefined} card the command of the card
+ * @param {{command: string, question: object} | undefined} card the command of the card, and what is
+ *   asked for it
  */
 export function exportOf(shown, card) {
   /** @type {(Node | string)[]} */
@@ -247,7 +249,9 @@ export function exportOf(shown, card) {
     parts.push(element("p", {}, ["The command that gives the same numbers:"]), element("pre", { id: "command", tabindex: 0 }, [shown.command]), copy(shown.command, "Copy the command"));
   }
   if (card) {
-    parts.push(element("p", {}, ["The operator's card of this set-up, as PDF:"]), element("pre", { tabindex: 0 }, [card]), copy(card, "Copy the card's command"));
+    const { command, question } = card;
+    parts.push(element("p", {}, ["The operator's card of this set-up, as PDF:"]), element("pre", { tabindex: 0 }, [command]), copy(command, "Copy the card's command"));
+    if (DRAWS_CARDS) parts.push(" ", ...cardSaver(question));
   }
   for (const [name, content] of Object.entries(shown?.documents ?? {})) {
     parts.push(" ", element("button", { type: "button", onclick: () => save(name, content) }, [`Save ${name}`]));
@@ -264,10 +268,44 @@ export function exportOf(shown, card) {
 }
 
 /**
- * The command of the card, from that of the heading.
+ * A button that has the card drawn and saves it, and the place of what is wrong with it.
+ * @param {object} question
+ */
+function cardSaver(question) {
+  const usual = "Save the card (PDF)";
+  const wrong = element("span", { class: "error", role: "alert" });
+  const button = /** @type {HTMLButtonElement} */ (element("button", {
+    type: "button", id: "card-pdf", onclick: async () => {
+      button.disabled = true;
+      button.textContent = "Drawing the card …";
+      wrong.textContent = "";
+      try {
+        // A page that is left stops it; what is asked for here does not change meanwhile.
+        await ask("card", question, new AbortController().signal, ({ pdf }) => {
+          if (pdf) save("card.pdf", Uint8Array.from(atob(pdf), (letter) => letter.charCodeAt(0)));
+        });
+      } catch (error) {
+        wrong.textContent = /** @type {Error} */ (error).message;
+      }
+      button.textContent = usual;
+      button.disabled = false;
+    },
+  }, [usual]));
+  return [button, wrong];
+}
+
+/**
+ * The card of a session: its command, from that of the heading, and what is asked for it.
+ * @param {Session} session
  * @param {string | undefined} command
  */
-export function cardCommand(command) {
+export function cardOf(session, command) {
+  const line = cardCommand(command);
+  return line === undefined ? undefined : { command: line, question: about(session) };
+}
+
+/** @param {string | undefined} command that of the heading */
+function cardCommand(command) {
   if (!command?.startsWith("grouser heading ")) return undefined;
   const words = command.replace("grouser heading ", "grouser card ").replace(/ --(slope-deg|samples|seed) \S+/g, "").replace(/ --nominal/, "");
   return `${words} --out card.pdf`;

@@ -10,7 +10,7 @@ import { BLANK, DriveAnswer, aboutMission } from "./drive.js";
 import { BY_HAND, HandDrive } from "./hand.js";
 import { FitAnswer, choicesOfFit, optionsOf, partsOf, takePart } from "./fit.js";
 import { LogAnswer } from "./log.js";
-import { Card, announce, cardCommand, chartOf, exportOf } from "./heading.js";
+import { Card, announce, cardOf, chartOf, exportOf } from "./heading.js";
 import { MapAnswer, offer, saidOf } from "./map.js";
 import { addLeg, addLimit, legsTable, removeLimit } from "./legs.js";
 import { fromAddress, toAddress } from "./session.js";
@@ -462,7 +462,7 @@ function showCards() {
   const own = new Card(session, false, [pin], (error) => {
     ended(error);
     drawn();
-    out.replaceChildren(exportOf(own.shown, cardCommand(own.shown?.command)));
+    out.replaceChildren(exportOf(own.shown, cardOf(own.session, own.shown?.command)));
   }, drawn);
   const others = pinned.map((other, index) => new Card(other, true, [
     element("button", { type: "button", onclick: () => {

@@ -16,6 +16,8 @@ mod wheel_test;
 #[cfg(feature = "server")]
 mod campaign;
 #[cfg(feature = "server")]
+mod card;
+#[cfg(feature = "server")]
 mod design;
 #[cfg(feature = "server")]
 mod drive_step;
@@ -61,6 +63,7 @@ pub(crate) static OF_FOLDERS: &[(&str, Read)] = &[
     ("map", map::read),
     ("map-place", place::read),
     ("route", route::read),
+    ("card", card::read),
     ("traverse", traverse::read),
     ("drive-step", drive_step::read),
     ("design", design::read),

@@ -1,5 +1,7 @@
 //! What questions are asked of.
 
+#[cfg(feature = "server")]
+use crate::cards::CardMaker;
 use crate::folder::ServedFolder;
 #[cfg(feature = "server")]
 use crate::maps::KeptOfMaps;
@@ -10,4 +12,7 @@ pub(crate) struct Console {
     /// What was computed of maps.
     #[cfg(feature = "server")]
     pub(crate) kept: KeptOfMaps,
+    /// What draws the operator's card.
+    #[cfg(feature = "server")]
+    pub(crate) card: Option<CardMaker>,
 }

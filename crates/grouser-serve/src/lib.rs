@@ -51,6 +51,8 @@ mod body;
 #[cfg(feature = "server")]
 mod browser_page;
 #[cfg(feature = "server")]
+mod cards;
+#[cfg(feature = "server")]
 mod connection;
 #[cfg(feature = "server")]
 mod kept;
@@ -71,6 +73,8 @@ mod token;
 
 #[cfg(feature = "server")]
 pub use browser_page::BrowserPage;
+#[cfg(feature = "server")]
+pub use cards::{CardMaker, CardOrder};
 #[cfg(feature = "server")]
 pub use limits::Limits;
 #[cfg(feature = "server")]

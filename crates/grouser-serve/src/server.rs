@@ -11,6 +11,7 @@ use tokio::sync::Semaphore;
 
 use crate::access::Access;
 use crate::browser_page::BrowserPage;
+use crate::cards::CardMaker;
 use crate::connection;
 use crate::console::Console;
 use crate::folder::ServedFolder;
@@ -33,6 +34,8 @@ pub struct Settings {
     /// Names by which it is called beside those of the loopback and its address, as those of a
     /// tunnel.
     pub hosts: Vec<String>,
+    /// What draws the operator's card as PDF; without it there is none to save.
+    pub card: Option<CardMaker>,
     /// How much it takes on.
     pub limits: Limits,
 }
@@ -45,6 +48,7 @@ impl Default for Settings {
             address: Ipv4Addr::LOCALHOST.into(),
             port: 0,
             hosts: Vec::new(),
+            card: None,
             limits: Limits::default(),
         }
     }
@@ -112,7 +116,7 @@ impl Server {
             .map_err(ServeError::System)?;
         let shared = Shared {
             access: Access::new(secrets, address, &settings.hosts),
-            console: Console { folder, kept: KeptOfMaps::default() },
+            console: Console { folder, kept: KeptOfMaps::default(), card: settings.card },
             runs: RunPlaces::new(&settings.limits),
             lists: Arc::new(Semaphore::new(1)),
             limits: settings.limits,

@@ -24,6 +24,7 @@ use grouser::studies::card::drives::{CardDrives, RowDrives};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::verdict::{Side, SlopeStudy};
 use grouser_draw::{Sheet, markup, pdf_of};
+use grouser_serve::CardOrder;
 use serde::Serialize;
 use serde_json::{Value, json};
 
@@ -115,18 +116,41 @@ impl Pages {
     pub(super) fn of(scenario: LoadedScenario, samples: u32, seed: u64) -> Result<Self, Failure> {
         let args = CardArgs { samples, seed, ..CardArgs::usual() };
         let inputs = CardInputs::usual(&args, scenario)?;
-        let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
-        let study = study(&args, &inputs);
-        let card = compute(&study, &samples, &[])?;
-        let rows = shown(&card::table(&card), &[]);
-        let courses = sampling::whole(study.courses(&card.rows, &samples, &|| true)?);
-        let courses = card_courses::table(&courses);
-        let picture = Picture::of(&inputs.scenario.value.rover, args.uphill);
-        let steepest = card::steepest(&card, &inputs.scenario, &study, uphill(&args));
-        let texts = texts::of(&args, &inputs, &card, &steepest);
-        let sheets = [layout::draw(&texts, &picture, &rows), second::draw(&texts, &rows, &courses)];
-        Ok(Self { card, sheets })
+        let made = sampling::with_bar(samples as usize, |go_on| Self::made(&args, &inputs, go_on));
+        Ok(sampling::whole(made?))
     }
+
+    /// Nothing where it is told not to go on.
+    fn made(
+        args: &CardArgs,
+        inputs: &CardInputs,
+        go_on: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Self>, Failure> {
+        let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
+        let study = study(args, inputs);
+        let Some(card) = study.card(&samples, &slopes(&[]), go_on)? else { return Ok(None) };
+        let Some(courses) = study.courses(&card.rows, &samples, go_on)? else { return Ok(None) };
+        let (rows, courses) = (shown(&card::table(&card), &[]), card_courses::table(&courses));
+        let picture = Picture::of(&inputs.scenario.value.rover, args.uphill);
+        let steepest = card::steepest(&card, &inputs.scenario, &study, uphill(args));
+        let texts = texts::of(args, inputs, &card, &steepest);
+        let sheets = [layout::draw(&texts, &picture, &rows), second::draw(&texts, &rows, &courses)];
+        Ok(Some(Self { card, sheets }))
+    }
+}
+
+/// The card that the console saves: that of `grouser card` without other flags than those of its
+/// scenario and rule.
+pub(super) fn pdf(
+    order: CardOrder,
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Vec<u8>>, String> {
+    let args = CardArgs::usual();
+    let made = CardInputs::usual(&args, order.scenario).and_then(|inputs| {
+        let inputs = CardInputs { rule: order.rule, ..inputs };
+        Pages::made(&args, &inputs, go_on)
+    });
+    Ok(made.map_err(|failure| failure.to_string())?.map(|pages| pdf_of(&pages.sheets)))
 }
 
 fn study(args: &CardArgs, inputs: &CardInputs) -> SlopeStudy {
@@ -144,17 +168,23 @@ fn compute(
     samples: &[Sample],
     measured: &[MeasuredYaw],
 ) -> Result<Card, Failure> {
-    let degrees = (0..=STEEPEST_DEG).map(f64::from);
-    let asked = measured.iter().map(|point| point.slope);
-    let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
-    slopes.sort_by(f64::total_cmp);
-    slopes.dedup();
+    let slopes = slopes(measured);
     if samples.len() > 2 * DRAFT && terminal::has_progress() {
         let drafted = sampling::whole(study.card(&samples[..DRAFT], &slopes, &|| true)?);
         output::message(&draft::line(&card::table(&drafted), DRAFT, samples.len()));
     }
     let card = sampling::with_bar(samples.len(), |go_on| study.card(samples, &slopes, go_on));
     Ok(sampling::whole(card?))
+}
+
+/// The slopes of a card [rad].
+fn slopes(measured: &[MeasuredYaw]) -> Vec<f64> {
+    let degrees = (0..=STEEPEST_DEG).map(f64::from);
+    let asked = measured.iter().map(|point| point.slope);
+    let mut slopes: Vec<f64> = degrees.chain(asked).map(|slope| SLOPE.unit.to_si(slope)).collect();
+    slopes.sort_by(f64::total_cmp);
+    slopes.dedup();
+    slopes
 }
 
 /// Ways between two corrections of those who drive by the card, over the card's [-].

@@ -6,6 +6,7 @@ use std::process::{Command, Stdio};
 
 use grouser_serve::{Limits, ServeError, Server, Settings};
 
+use super::card;
 use crate::args::ServeArgs;
 use crate::failure::Failure;
 use crate::{interrupt, output};
@@ -17,6 +18,7 @@ pub(crate) fn run(args: &ServeArgs) -> Result<(), Failure> {
         address,
         port: args.port,
         hosts: args.hosts.clone(),
+        card: Some(card::pdf),
         limits: Limits::default(),
     })?;
     let url = server.address();

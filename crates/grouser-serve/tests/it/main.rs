@@ -3,6 +3,7 @@
 mod access;
 mod answers;
 mod campaign;
+mod card;
 mod design;
 mod drive_step;
 mod fit;

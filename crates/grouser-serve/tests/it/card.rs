@@ -1,0 +1,49 @@
+//! The operator's card: an order goes to what draws it, and the file comes back whole.
+
+use grouser_draw::from_base64;
+use grouser_serve::{CardOrder, Settings};
+use serde_json::json;
+
+use crate::served::Served;
+
+/// What a card would be of, in the place of one.
+fn words(
+    CardOrder { scenario, rule }: CardOrder,
+    go_on: &(dyn Fn() -> bool + Sync),
+) -> Result<Option<Vec<u8>>, String> {
+    if scenario.document.name_of("soil").contains("dry") {
+        return Err("no card of this soil".to_owned());
+    }
+    let gravity = scenario.value.gravity;
+    let words = format!("{gravity} {} {}", rule.go_slip_ratio, go_on());
+    Ok(Some([words.as_bytes(), b"\0\xff"].concat()))
+}
+
+#[test]
+fn a_card_is_drawn_of_what_is_asked_for() {
+    let server = Served::start(&Settings { card: Some(words), ..Settings::default() });
+    let asked = json!({
+        "soil": "toyoura", "set": {"scenario.gravity_m_s2": 1.62}, "go_slip_ratio": 0.2,
+    });
+    let reply = server.post("card", &asked);
+    assert_eq!(reply.status, 200, "{reply:?}");
+    let line = &reply.lines()[0];
+    assert_eq!(
+        (&line["schema"], &line["name"]),
+        (&json!("grouser.card-file.v1"), &json!("card.pdf"))
+    );
+    let bytes = from_base64(line["pdf"].as_str().unwrap()).unwrap();
+    assert_eq!(bytes, b"1.62 0.2 true\0\xff");
+    // What is wrong is said in its words, and by its key.
+    let reply = server.post("card", &json!({"soil": "dry-sand"}));
+    assert!(reply.body.contains("no card of this soil"), "{reply:?}");
+    let reply = server.post("card", &json!({"model": "all"}));
+    assert_eq!((reply.status, &reply.lines()[0]["key"]), (422, &json!("model")));
+}
+
+#[test]
+fn a_server_without_cards_says_so() {
+    let reply = Served::usual().post("card", &json!({}));
+    assert_eq!(reply.status, 501, "{reply:?}");
+    assert!(reply.body.contains("grouser card"), "{reply:?}");
+}
