@@ -78,11 +78,11 @@ const STEPS: [Step; 26] = {
         step("wheel", 60.0, Here(|_| python::installed().map(|_| Count::one(true)))),
         Step { asks: COMPUTES, ..step("hashes", 25.0, Here(hashes::check)) },
         Step { asks: PAGES, ..step("site", 200.0, Beside(&["site", "--as-it-is"])) },
-        Step { asks: COUNTED, ..step("instructions", 80.0, Beside(&["instructions", "--check"])) },
+        Step { asks: COUNTED, ..step("instructions", 115.0, Beside(&["instructions", "--check"])) },
         step("python", 550.0, Here(python::check)),
         step("workflows", 2.0, Here(|_| workflows::check().map(Count::one))),
         Step { is_long: true, ..step("engine", 400.0, Last(engine::check)) },
-        Step { asks: PAGES, ..step("pages", 210.0, Last(pages::check)) },
+        Step { asks: PAGES, ..step("pages", 330.0, Last(pages::check)) },
         Step { is_long: true, ..step("release", 600.0, Here(|_| release())) },
     ]
 };
