@@ -25,7 +25,7 @@ use grouser::document::{
 };
 
 pub(crate) use self::advice::advice;
-pub(crate) use self::card::{CardInputs, card, rule};
+pub(crate) use self::card::{CardInputs, card, check_agreement, rule};
 pub(crate) use self::follow::Following;
 pub(crate) use self::forecast::{ForecastInputs, forecast};
 pub(crate) use self::heading::{heading, heading_map};

@@ -1,10 +1,10 @@
 // The first view: the heading that holds the contour on a slope, its verdict, and set-ups beside
 // each other.
 
-import { Asking, ask } from "./api.js";
+import { Asking } from "./api.js";
 import { draw } from "./chart.js";
 import { byId, element, four, save } from "./dom.js";
-import { DRAWS_CARDS } from "./engine.js";
+import { DRAWS_CARDS, LOST } from "./engine.js";
 import { setOf } from "./session.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -267,31 +267,45 @@ export function exportOf(shown, card) {
   return element("div", { class: "export" }, parts);
 }
 
+/** The button of the card that is offered, what it asks for, and who asks. */
+const saver = { asked: "", nodes: /** @type {Node[]} */ ([]), asking: new Asking() };
+
 /**
- * A button that has the card drawn and saves it, and the place of what is wrong with it.
+ * A button that has the card drawn and saves it, and the place of what is wrong with it. It stays
+ * while the same is asked for; another set-up stops the drawing.
  * @param {object} question
  */
 function cardSaver(question) {
+  const asked = JSON.stringify(question);
+  if (asked === saver.asked) return saver.nodes;
+  saver.asking.stop();
   const usual = "Save the card (PDF)";
   const wrong = element("span", { class: "error", role: "alert" });
-  const button = /** @type {HTMLButtonElement} */ (element("button", {
-    type: "button", id: "card-pdf", onclick: async () => {
-      button.disabled = true;
-      button.textContent = "Drawing the card …";
-      wrong.textContent = "";
-      try {
-        // A page that is left stops it; what is asked for here does not change meanwhile.
-        await ask("card", question, new AbortController().signal, ({ pdf }) => {
-          if (pdf) save("card.pdf", Uint8Array.from(atob(pdf), (letter) => letter.charCodeAt(0)));
-        });
-      } catch (error) {
-        wrong.textContent = /** @type {Error} */ (error).message;
-      }
-      button.textContent = usual;
-      button.disabled = false;
-    },
-  }, [usual]));
-  return [button, wrong];
+  const button = element("button", { type: "button", id: "card-pdf", onclick: begin }, [usual]);
+  let isDrawing = false;
+  const end = (/** @type {string} */ problem) => {
+    isDrawing = false;
+    button.textContent = usual;
+    button.removeAttribute("aria-busy");
+    wrong.textContent = problem;
+  };
+  saver.asking.watch = ({ done = 0 }) => { button.textContent = `Drawing the card … ${done} samples`; };
+  function begin() {
+    if (isDrawing) return;
+    isDrawing = true;
+    wrong.textContent = "";
+    button.textContent = "Drawing the card …";
+    button.setAttribute("aria-busy", "true");
+    let isSaved = false;
+    saver.asking.ask("card", question, ({ pdf }) => {
+      if (!pdf) return;
+      save("card.pdf", Uint8Array.from(atob(pdf), (letter) => letter.charCodeAt(0)));
+      isSaved = true;
+    }, (error) => end(error?.message ?? (isSaved ? "" : LOST)));
+  }
+  saver.asked = asked;
+  saver.nodes = [button, wrong];
+  return saver.nodes;
 }
 
 /**

@@ -41,9 +41,9 @@ type Rule = fn(&Sources) -> usize;
 /// on it 150, and random commands that are timed and engines' steps that begin near their end 110.
 /// Wheels on uneven ground that settle together and starts that are followed took 490,
 /// drives by hand, trials left out and what newcomers asked of the console 530, its first two views
-/// without a server 130, and a card that it saves and steps that any cutting leaves as they are 180.
+/// without a server 130, and a card that it saves and steps that any cutting leaves as they are 230.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 131_180, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 131_230, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 9_100, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 18, |all| {

@@ -116,23 +116,25 @@ impl Pages {
     pub(super) fn of(scenario: LoadedScenario, samples: u32, seed: u64) -> Result<Self, Failure> {
         let args = CardArgs { samples, seed, ..CardArgs::usual() };
         let inputs = CardInputs::usual(&args, scenario)?;
-        let made = sampling::with_bar(samples as usize, |go_on| Self::made(&args, &inputs, go_on));
-        Ok(sampling::whole(made?))
+        let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
+        let study = study(&args, &inputs);
+        let card = compute(&study, &samples, &[])?;
+        let pages = Self::drawn(&args, &inputs, (&study, &samples), card, &|| true)?;
+        Ok(sampling::whole(pages))
     }
 
     /// Nothing where it is told not to go on.
-    fn made(
+    fn drawn(
         args: &CardArgs,
         inputs: &CardInputs,
+        (study, samples): (&SlopeStudy, &[Sample]),
+        card: Card,
         go_on: &(dyn Fn() -> bool + Sync),
     ) -> Result<Option<Self>, Failure> {
-        let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
-        let study = study(args, inputs);
-        let Some(card) = study.card(&samples, &slopes(&[]), go_on)? else { return Ok(None) };
-        let Some(courses) = study.courses(&card.rows, &samples, go_on)? else { return Ok(None) };
+        let Some(courses) = study.courses(&card.rows, samples, go_on)? else { return Ok(None) };
         let (rows, courses) = (shown(&card::table(&card), &[]), card_courses::table(&courses));
         let picture = Picture::of(&inputs.scenario.value.rover, args.uphill);
-        let steepest = card::steepest(&card, &inputs.scenario, &study, uphill(args));
+        let steepest = card::steepest(&card, &inputs.scenario, study, uphill(args));
         let texts = texts::of(args, inputs, &card, &steepest);
         let sheets = [layout::draw(&texts, &picture, &rows), second::draw(&texts, &rows, &courses)];
         Ok(Some(Self { card, sheets }))
@@ -145,12 +147,18 @@ pub(super) fn pdf(
     order: CardOrder,
     go_on: &(dyn Fn() -> bool + Sync),
 ) -> Result<Option<Vec<u8>>, String> {
-    let args = CardArgs::usual();
-    let made = CardInputs::usual(&args, order.scenario).and_then(|inputs| {
+    let draw = || {
+        inputs::check_agreement(&order.scenario)?;
+        let args = CardArgs::usual();
+        let inputs = CardInputs::usual(&args, order.scenario)?;
         let inputs = CardInputs { rule: order.rule, ..inputs };
-        Pages::made(&args, &inputs, go_on)
-    });
-    Ok(made.map_err(|failure| failure.to_string())?.map(|pages| pdf_of(&pages.sheets)))
+        let samples = sampling::draw_if_uncertain(&inputs.scenario, args.samples, args.seed)?;
+        let study = study(&args, &inputs);
+        let Some(card) = study.card(&samples, &slopes(&[]), go_on)? else { return Ok(None) };
+        Pages::drawn(&args, &inputs, (&study, &samples), card, go_on)
+    };
+    let pages = draw().map_err(|failure: Failure| failure.to_string())?;
+    Ok(pages.map(|pages| pdf_of(&pages.sheets)))
 }
 
 fn study(args: &CardArgs, inputs: &CardInputs) -> SlopeStudy {

@@ -23,14 +23,20 @@ pub(crate) fn card(args: &CardArgs) -> Result<CardInputs, Failure> {
     let (setting, balance) = (&args.setting, &args.balance);
     let scenario = balanced("card", args.scenario.as_deref(), rover, soil, setting, balance)?;
     refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
-    if let Some(why) = contradiction(&scenario.document).filter(|_| !args.accept_contradiction) {
-        return Err(Failure::Usage(format!(
-            "{why}\nhint: learn anew with another prior or mended telemetry, or take it as it is by \
-             --accept-contradiction"
-        )));
+    if !args.accept_contradiction {
+        check_agreement(&scenario).map_err(|failure| {
+            Failure::Usage(format!("{failure}, or take it as it is by --accept-contradiction"))
+        })?;
     }
     let rim_speed = rim_speed(args.rim_speed_m_s.as_ref(), &scenario)?;
     Ok(CardInputs { scenario, rim_speed, rule })
+}
+
+/// Refuses a soil that was learnt of what contradicts it: no rover is to be driven by its card.
+pub(crate) fn check_agreement(scenario: &LoadedScenario) -> Result<(), Failure> {
+    let Some(why) = contradiction(&scenario.document) else { return Ok(()) };
+    let hint = "learn anew with another prior or mended telemetry";
+    Err(Failure::Usage(format!("{why}\nhint: {hint}")))
 }
 
 impl CardInputs {

@@ -6,10 +6,11 @@ use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
 use grouser::document::json;
+use grouser_draw::from_base64;
 use serde_json::{Value, json};
 
 use crate::maps::heights;
-use crate::program::Place;
+use crate::program::{Place, changed_preset};
 
 /// A server, and the address that it printed.
 struct Served {
@@ -377,4 +378,20 @@ fn the_token_is_on_no_command_line() {
         read("opened")
     );
     assert!(read("read").contains(line.trim()), "{}", read("read"));
+}
+
+/// The card is the file of the command; a soil that was learnt of what contradicts it has none.
+#[test]
+fn the_card_is_that_of_the_command() {
+    let place = Place::new();
+    let (key, named) =
+        ("friction_angle_deg", "contradictions = [\"it slips less\"]\nfriction_angle_deg");
+    place.write("odd.toml", changed_preset("soil", "toyoura", key, named));
+    let server = Served::start(&place, &["."]);
+    let lines = server.ask("card", &json!({"soil": "toyoura", "go_slip_ratio": 0.25}));
+    let pdf = from_base64(lines.last().unwrap()["pdf"].as_str().unwrap()).unwrap();
+    place.line("card --soil toyoura --go-slip-ratio 0.25 --out card.pdf");
+    assert!(pdf.starts_with(b"%PDF") && pdf == std::fs::read(place.file("card.pdf")).unwrap());
+    let refused = server.refused("card", &json!({"soil": "odd.toml"}));
+    assert!(refused["error"].as_str().unwrap().contains("it slips less"), "{refused}");
 }

@@ -30,7 +30,7 @@ pub(super) struct Leg<'a> {
     pub(super) records: &'a mut Vec<Record>,
     /// Whether the wheels had other speeds before, or a held yaw another rate.
     pub(super) is_new_command: bool,
-    /// Until when they are expected to keep them [s].
+    /// Until when they are expected to keep them [s], which matters on uneven ground alone.
     pub(super) kept_until: f64,
     /// What is recorded.
     pub(super) due: Due,

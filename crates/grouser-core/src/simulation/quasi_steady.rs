@@ -12,16 +12,19 @@
 //! through, not with the way it drives: one that keeps its yaw costs two steady states, however far
 //! it goes.
 //!
-//! Neither the stretches nor the steps of the pose depend on when somebody looks: a look within a
-//! step takes a part of it, and the step goes on from its start. So a run has the same bits however
-//! it is cut into advances.
+//! A command begins with a short stretch, and each is longer than the one before it. Neither the
+//! stretches nor the steps of the pose depend on when somebody looks: a look within a step takes a
+//! part of it, and the step goes on from its start. So a motion that stays steady has the same bits
+//! however it is cut into advances.
 
 use nalgebra::Vector3;
 
 use super::equations::Equations;
 use super::point::Point;
 use super::steady_state::{Before, Memory, NotSteady, SteadySolver, SteadyState, rolling};
+use super::times::multiple_after;
 use super::turning::Turning;
+use super::watch::WATCH_PERIOD;
 use crate::contact::WheelForces;
 use crate::lagrange;
 use crate::stored::stored;
@@ -50,19 +53,23 @@ const LINEAR: f64 = 1.75e-3;
 const FIRST_STRETCH: f64 = 0.03;
 /// A stretch is at most so many times as long as the one before it [-].
 const GROWTH: f64 = 20.0;
-/// The longest stretch of yaw with one polynomial [rad].
+/// The narrowest and the longest stretch of yaw with one polynomial [rad].
+const NARROWEST: f64 = 1e-10;
 const LONGEST_STRETCH: f64 = 0.1;
 /// Parabolas through three steady states must meet those between them to this, over the fastest
 /// rim's speed [-]. The polynomial through all five is nearer by a hundred times where motion is
-/// smooth. It is ten times what a parabola misses there whose middle is off the chord by as much as
-/// this over the stretch's width in radians, which then needs no others.
+/// smooth.
 const RESOLVED: f64 = 1e-5;
+/// On a stretch of at most this width [rad] whose middle is off its chord by less than that over the
+/// width, three steady states suffice: a parabola misses a third derivative of 1/rad³, which is that
+/// of a sine, by 0.008 times the cube of the width, 1e-6.
+const SHORT_STRETCH: f64 = 0.05;
 /// A step in time turns the rover by at most this share of a stretch [-], or of one of two steady
 /// states.
 const STEP_SHARE: f64 = 0.1;
 const LINEAR_STEP_SHARE: f64 = 0.5;
-/// The longest step in time [s].
-const LONGEST_STEP: f64 = 0.1;
+/// The longest step in time [s]: steps end at its multiples, too.
+const LONGEST_STEP: f64 = WATCH_PERIOD;
 /// A stretch this near to its end is at its end [-].
 const AT_END: f64 = 0.01;
 
@@ -111,8 +118,25 @@ stored!(struct Carried { memory, stretch, step, rolled });
 impl Carried {
     /// Whether a rover with so many wheels can have it.
     pub(super) fn is_of(&self, count: usize) -> bool {
-        let nodes = &self.stretch.nodes;
-        matches!(nodes.len(), 1 | 2 | 3 | 5) && nodes.iter().all(|node| node.wheels.len() == count)
+        let Stretch { nodes, width, reach } = &self.stretch;
+        let has_wheels = |turning: &Option<Turning>| {
+            turning.as_ref().is_none_or(|turning| turning.rim_speeds().len() == count)
+        };
+        let is_node = |node: &SteadyState| {
+            let numbers = node.velocities.iter().chain(&node.powers).chain([&node.yaw]);
+            let is_finite = numbers.copied().all(f64::is_finite);
+            is_finite && node.wheels.len() == count && has_wheels(&node.turning)
+        };
+        let is_wide = match nodes.len() {
+            1 => *width == 0.0 && *reach >= 0.0,
+            2 | 3 | 5 => (NARROWEST..=LONGEST_STRETCH).contains(&width.abs()),
+            _ => false,
+        };
+        let BegunStep { from, time, seen } = &self.step;
+        is_wide
+            && nodes.iter().all(is_node)
+            && time.is_finite()
+            && [from, seen].into_iter().all(|point| has_wheels(&point.turning))
     }
 
     /// The wheels at a point of the motion, if it is one of steady states.
@@ -195,15 +219,23 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
                 self.stretch = self.stretch_on()?;
                 continue;
             };
-            let end = self.step.time + span;
+            let begun = self.step.time;
+            let end = (begun + span).min(multiple_after(begun, LONGEST_STEP));
             if until < end {
-                break;
+                *point = self.stepped(until - begun);
+                self.step.seen = *point;
+                return Ok(());
             }
-            self.step = BegunStep::at(&self.stepped(span), end);
+            // As of a rate without bound.
+            if end <= begun {
+                return Err(NotSteady::NoSteadyState);
+            }
+            self.step = BegunStep::at(&self.stepped(end - begun), end);
+            if end == until {
+                *point = self.step.from;
+                return Ok(());
+            }
         }
-        *point = self.stepped(until - self.step.time);
-        self.step.seen = *point;
-        Ok(())
     }
 
     /// The stretch after the one that ends where the step begins.
@@ -308,7 +340,7 @@ impl Stretch {
         let mut known = vec![(0.0, here)];
         while width.abs() > LINEAR {
             if fill(solver, &mut known, width, &[1.0, 0.5]).is_ok()
-                && (known.len() == 3 && bend(solver, &known) * width.abs() <= RESOLVED
+                && (width.abs() <= SHORT_STRETCH && bend(solver, &known) * width.abs() <= RESOLVED
                     || fill(solver, &mut known, width, &QUARTERS).is_ok()
                         && roughness(solver, &known) <= RESOLVED)
             {
@@ -362,18 +394,18 @@ impl Stretch {
         if self.width == 0.0 { 0.0 } else { (yaw - self.nodes[0].yaw) / self.width }
     }
 
-    /// How long the next step is from a yaw on [s]; none where the stretch ends there.
+    /// How long the next step is from a yaw on at the most [s]; none where the stretch ends there.
     fn step_from(&self, yaw: f64) -> Option<f64> {
         if self.width == 0.0 {
             let is_held = (yaw - self.nodes[0].yaw).abs() <= self.reach;
-            return is_held.then_some(LONGEST_STEP);
+            return is_held.then_some(f64::INFINITY);
         }
         let (share, rate) = (self.share(yaw), self.velocities(yaw).z / self.width);
         let left = if rate < 0.0 { share } else { 1.0 - share };
         let is_on = (-AT_END..=1.0 + AT_END).contains(&share) && left > AT_END;
         let most = if self.nodes.len() == 2 { LINEAR_STEP_SHARE } else { STEP_SHARE };
         // A rate of zero lasts for ever.
-        is_on.then(|| (left.min(most) / rate.abs()).min(LONGEST_STEP))
+        is_on.then(|| left.min(most) / rate.abs())
     }
 
     /// The steady state at whose yaw the stretch ends, if the rover turns on there.

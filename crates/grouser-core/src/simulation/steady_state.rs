@@ -51,7 +51,8 @@ pub enum NotSteady {
     /// Velocities take so long to settle that it shows.
     #[error("velocities take {settling_time:.2} s to settle")]
     Slow {
-        /// Time in which a disturbance fades by e [s].
+        /// Time in which a disturbance fades by e, or in which a rover with other velocities comes
+        /// near these [s].
         settling_time: f64,
     },
     /// The steady state moves faster than the velocities can follow.

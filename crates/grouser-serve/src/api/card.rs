@@ -11,6 +11,7 @@ use super::rule;
 use crate::asked::Question;
 use crate::cards::CardOrder;
 use crate::console::Console;
+use crate::progress::Progress;
 use crate::refusal::Refusal;
 
 pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
@@ -33,8 +34,13 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let unknown = || Refusal::new(StatusCode::INTERNAL_SERVER_ERROR, "there is no model");
     let order = order.ok_or_else(unknown)?;
     Ok(Question::new(move |go_on, send| {
+        let go_on = go_on.of_study();
         let turn = go_on.turn().ok_or_else(Refusal::stopped)?;
-        let made = make(order, &|| go_on.is_on());
+        let progress = Progress::new(send, "samples", 0, None);
+        let made = make(order, &|| {
+            progress.count();
+            go_on.is_on()
+        });
         drop(turn);
         let failed = |why| Refusal::new(StatusCode::UNPROCESSABLE_ENTITY, why);
         let card = made.map_err(failed)?.ok_or_else(Refusal::stopped)?;
