@@ -73,7 +73,7 @@ const STEPS: [Step; 26] = {
         step("fuzz", 150.0, Here(|extent| fuzz::check(&fuzz::Plan::of(extent)))),
         step("meaning", 60.0, Here(fuzz::meaning::check)),
         step("readers", 60.0, Here(|extent| fuzz::readers::check(fuzz::readers::Plan::of(extent)))),
-        Step { asks: OF_C, ..step("c", 250.0, Here(|_| c::check())) },
+        Step { asks: OF_C, ..step("c", 500.0, Here(|_| c::check())) },
         Step { asks: PACKED, ..step("packages", 20.0, Here(packages::check)) },
         step("wheel", 60.0, Here(|_| python::installed().map(|_| Count::one(true)))),
         Step { asks: COMPUTES, ..step("hashes", 25.0, Here(hashes::check)) },
