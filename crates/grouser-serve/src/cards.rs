@@ -11,7 +11,7 @@ pub struct CardOrder {
     pub rule: Rule,
 }
 
-/// Draws the card of an order as PDF while it is told to go on: nothing where it was not. An error
-/// says why there is no card.
+/// Draws the card of an order as PDF; `None` if `go_on` was false before the end. An error says why
+/// there is no card.
 pub type CardMaker =
     fn(CardOrder, go_on: &(dyn Fn() -> bool + Sync)) -> Result<Option<Vec<u8>>, String>;

@@ -123,7 +123,7 @@ impl Pages {
         Ok(sampling::whole(pages))
     }
 
-    /// Nothing where it is told not to go on.
+    /// The pages of a card that was computed; `None` if `go_on` was false before the end.
     fn drawn(
         args: &CardArgs,
         inputs: &CardInputs,

@@ -226,7 +226,7 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
                 self.step.seen = *point;
                 return Ok(());
             }
-            // As of a rate without bound.
+            // A rate without bound makes no step.
             if end <= begun {
                 return Err(NotSteady::NoSteadyState);
             }

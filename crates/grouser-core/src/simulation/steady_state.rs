@@ -156,8 +156,8 @@ pub const MOST_SLIP: f64 = 0.9;
 /// in the Moon's gravity half of this.)
 pub const LONGEST_SETTLING: f64 = 0.1;
 
-/// And those that take longer to come near their steady state from others [s]. Source: ours; four
-/// times that, in which a disturbance fades to a fiftieth.
+/// A run whose velocities take longer to come near their steady state is no steady motion meanwhile
+/// [s]. Source: ours; in four settling times a disturbance fades to a fiftieth.
 const LONGEST_WAY: f64 = 4.0 * LONGEST_SETTLING;
 
 /// Rims that turn faster by such a factor move the rover alike [-]. Source: ours; at most as a

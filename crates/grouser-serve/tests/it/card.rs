@@ -27,7 +27,7 @@ fn a_card_is_drawn_of_what_is_asked_for() {
     });
     let reply = server.post("card", &asked);
     assert_eq!(reply.status, 200, "{reply:?}");
-    // What is done is told before.
+    // Lines of progress come before the card.
     let lines = reply.lines();
     assert_eq!((lines.len(), &lines[0]["schema"]), (2, &json!("grouser.progress.v1")));
     let line = &lines[1];

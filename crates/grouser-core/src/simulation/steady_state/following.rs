@@ -23,8 +23,8 @@ struct Followed {
     next_span: f64,
 }
 
-/// Steps, those taken again included: past a place where a turn on the spot is almost steady, and on
-/// to where it is, took up to 60 in 12,000 such turns.
+/// Steps, those taken again included. Source: measured; some turns on the spot pass a place where
+/// they are almost steady, and of 12,000 turns 5 are not found in 60 steps, 3 in these.
 const MOST_STEPS: usize = 80;
 /// How near that is, over the fastest rim's speed [-].
 const ARRIVED: f64 = 0.02;
