@@ -17,7 +17,7 @@ from .._errors import ParameterError
 from .._terrain import Terrain
 from .._wheels import WheelForces, setting
 from ._ground import Ground, HeightFunction, ground_geom, ground_of
-from ._inertia import inertia_of_step
+from ._inertia import StepInertia
 from ._sizes import check_sizes as check_sizes_of
 
 Floats = NDArray[np.float64]
@@ -154,6 +154,7 @@ class SoilContact:
         widths = np.array([float(wheel.width_m) for wheel in made])
         self._ground: Ground = ground_of(mj_model, ground, self._radii, widths)
         self._moments = wheel_moments == "included"
+        self._inertia = StepInertia(mj_model)
         self._found = np.zeros((len(self._reaction.names), len(made)))
         self._residual = 0.0
         self._take_memory()
@@ -247,18 +248,19 @@ class SoilContact:
         mujoco.mj_getState(model, data, self._state, _STATE)
         mujoco.mj_setState(model, ahead, self._state, _STATE)
         mujoco.mj_step(model, ahead)
-        hubs, axles = ahead.xanchor[self._hinges], ahead.xaxis[self._hinges]
+        # Takes a third of the time of indexing.
+        hubs, axles = ahead.xanchor.take(self._hinges, 0), ahead.xaxis.take(self._hinges, 0)
         normals, distances = self._ground.under(ahead, hubs, axles)
         for (along, about), hub, body in zip(self._rows, hubs, self._bodies):
             mujoco.mj_jac(model, ahead, along, about, hub, body)
         wrenches, self._found, self._residual = self._reaction.apply(
             model.opt.timestep,
-            (hubs, axles, ahead.xipos[self._bodies], normals),
+            (hubs, axles, ahead.xipos.take(self._bodies, 0), normals),
             distances,
             self._jacobians,
-            inertia_of_step(model, ahead),
+            self._inertia.after(ahead),
             ahead.qvel,
-            ahead.xfrc_applied[self._bodies],
+            ahead.xfrc_applied.take(self._bodies, 0),
             self._moments,
             mujoco.mju_norm3(model.opt.gravity),
         )

@@ -40,12 +40,11 @@ class _Plane:
         self._geom = geom
 
     def under(self, data: Any, hubs: Floats, axles: Floats) -> tuple[Floats, Floats]:
-        normal = data.geom_xmat[self._geom][2::3]
-        # Added up in this order, as the engine's plugin does.
-        x, y, z = (hubs - data.geom_xpos[self._geom]).T
-        distances: Floats = x * normal[0] + y * normal[1] + z * normal[2]
         normals = np.empty(hubs.shape)
-        normals[:] = normal
+        normals[:] = data.geom_xmat[self._geom, 2::3]
+        # Added up in this order, as the engine's plugin does.
+        x, y, z = ((hubs - data.geom_xpos[self._geom]) * normals).T
+        distances: Floats = x + y + z
         return normals, distances
 
 

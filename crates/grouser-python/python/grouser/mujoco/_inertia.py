@@ -13,24 +13,32 @@ _EULER = int(mujoco.mjtIntegrator.mjINT_EULER)
 _EULER_DAMPING_OFF = int(mujoco.mjtDisableBit.mjDSBL_EULERDAMP)
 
 
-def inertia_of_step(model: Any, stepped: Any) -> Floats:
-    """M − Δt ∂f/∂v [kg, kg·m, kg·m²], with the forces that the integrator takes at the end of the
-    step: joint damping for Euler, and those of actuators too for the implicit ones.
+class StepInertia:
+    """M − Δt ∂f/∂v [kg, kg·m, kg·m²] of a model, with the forces that its integrator takes at the end
+    of the step: joint damping for Euler, and those of actuators too for the implicit ones."""
 
-    Parameters
-    ----------
-    stepped : mujoco.MjData
-        After a step.
-    """
-    inertia = _inertia(model, stepped)
-    duration = model.opt.timestep
-    if model.opt.integrator != _EULER:
+    def __init__(self, model: Any) -> None:
+        self._model = model
+        # Where the derivatives of the forces stand in the matrix, row by row.
         rows = np.repeat(np.arange(model.nv), model.D_rownnz)
-        inertia[rows, model.D_colind] -= duration * stepped.qDeriv
-    elif not model.opt.disableflags & _EULER_DAMPING_OFF:
-        # A view of the diagonal.
-        inertia.reshape(-1)[:: model.nv + 1] += duration * model.dof_damping
-    return inertia
+        self._places = rows * model.nv + model.D_colind
+
+    def after(self, stepped: Any) -> Floats:
+        """The inertia in a step.
+
+        Parameters
+        ----------
+        stepped : mujoco.MjData
+            After a step.
+        """
+        model = self._model
+        inertia = _inertia(model, stepped)
+        options, entries = model.opt, inertia.reshape(-1)
+        if options.integrator != _EULER:
+            entries[self._places] -= options.timestep * stepped.qDeriv
+        elif not options.disableflags & _EULER_DAMPING_OFF:
+            entries[:: model.nv + 1] += options.timestep * model.dof_damping
+        return inertia
 
 
 def _inertia(model: Any, data: Any) -> Floats:
