@@ -189,6 +189,27 @@ impl Table {
         }
     }
 
+    /// Tables one below the other, with the columns of all by their names: each of so many rows, of
+    /// which those that it does not have, and columns that it lacks, have nothing.
+    #[must_use]
+    pub fn stacked(tables: impl IntoIterator<Item = Self>, rows: usize) -> Self {
+        let mut all = Self::default();
+        for (place, table) in tables.into_iter().enumerate() {
+            for (name, values) in table.columns {
+                let known = all.columns.iter().position(|(known, _)| *known == name);
+                let known = known.unwrap_or_else(|| {
+                    all.columns.push((name, values.select(&[])));
+                    all.columns.len() - 1
+                });
+                let (_, column) = &mut all.columns[known];
+                column.pad(place * rows);
+                column.append(values);
+            }
+            all = all.padded((place + 1) * rows);
+        }
+        all
+    }
+
     /// A table of rows that are all there.
     #[must_use]
     pub fn of<R>(columns: &[Column<R>], rows: &[R]) -> Self {
@@ -299,6 +320,20 @@ mod tests {
         let text = serde_json::to_string(&WithObject { rows: &rows, name: "advice", of: &of });
         let expected = r#"[{"slope_deg":5.0,"advice":{"yaw_deg":2.0}},{"slope_deg":10.0,"advice":{"yaw_deg":null}}]"#;
         assert_eq!(text.unwrap(), expected);
+    }
+
+    #[test]
+    fn tables_are_stacked_by_names_and_padded() {
+        let table = |names: &[&str], number: f64| Table {
+            columns: names
+                .iter()
+                .map(|name| ((*name).to_owned(), Values::Float(vec![Some(number)])))
+                .collect(),
+        };
+        let tables = [table(&["a"], 1.0), table(&["b", "a"], 2.0), Table::default()];
+        let all = Table::stacked(tables, 2);
+        assert_eq!(all.numbers("a"), [Some(1.0), None, Some(2.0), None, None, None]);
+        assert_eq!(all.numbers("b"), [None, None, Some(2.0), None, None, None]);
     }
 
     #[test]

@@ -295,11 +295,15 @@ pub(crate) fn outside(name: &str, value: f64, range: &RangeInclusive<f64>) -> St
 }
 
 /// Numbers of an entry that do not go together.
-pub(crate) fn misfit_at(place: usize, count: usize, error: &ParameterError) -> PyErr {
-    let ParameterError { name, value, expected } = error;
+pub(crate) fn misfit_at(place: usize, count: usize, problem: &Problem) -> PyErr {
     let at = if count > 1 { format!(" (entry {place})") } else { String::new() };
-    let message = format!("{name} is {value}{at}, it must be {expected}");
-    parameter(message, name, Some(*value), *expected)
+    match problem {
+        Problem::Unfit(ParameterError { name, value, expected }) => {
+            let message = format!("{name} is {value}{at}, it must be {expected}");
+            parameter(message, name, Some(*value), *expected)
+        }
+        other => parameter(format!("{other}{at}"), "vary", None, "numbers that go together"),
+    }
 }
 
 /// A run that cannot be computed.

@@ -39,7 +39,7 @@ const BATCH: usize = 1024;
 pub(crate) fn settle_gradients<'py>(
     py: Python<'py>,
     soils: Vec<PyRef<'py, Document>>,
-    wheel: &Document,
+    wheel: PyRef<'py, Document>,
     setting: &Document,
     load_n: PyReadonlyArray1<'py, f64>,
     slip_ratio: PyReadonlyArray1<'py, f64>,
@@ -57,12 +57,14 @@ pub(crate) fn settle_gradients<'py>(
         slip_ratios: &slip_ratios,
         slip_angles_deg: &slip_angles_deg,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
+        wheels: None,
     };
     let count = inputs.pressed.len();
-    let mut stand = Stand::new(&soils, wheel, setting, vary, count, outside_is_nan)?;
-    inputs.check(stand.soil_count(), &study::LOAD_N)?;
+    let wheels = [wheel];
+    let mut stand = Stand::new(&soils, &wheels, setting, vary, count, outside_is_nan)?;
+    inputs.check(&stand, &study::LOAD_N)?;
     stand.check(py, &inputs)?;
-    let keys = keys_of(&soils, wheel, &keys)?;
+    let keys = keys_of(&soils, &wheels[0], &keys)?;
     let names: Vec<String> = keys[0].names().map(str::to_owned).collect();
     let of_wheel = |place| of_wheel(&stand, &inputs, &keys, place);
     let mut found: Vec<_> = Vec::with_capacity(count);

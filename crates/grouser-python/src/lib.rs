@@ -4,8 +4,8 @@
 //! Python's own half, `python/grouser`, has the names, the docstrings and the shapes; this one
 //! reads documents ([`descriptions`]), settles arrays of wheels ([`wheels`]), steps rovers
 //! ([`simulators`], on [`paths`]), reads slip from currents ([`slip_from_current`]), learns from
-//! telemetry ([`learning`]), runs studies ([`studies`], [`missions`], [`rollouts`], [`validation`],
-//! [`calibration`]) and campaigns ([`campaign`]), computes the soil's reaction for other engines
+//! telemetry ([`learning`]), runs studies ([`studies`], [`missions`], [`validation`],
+//! [`calibration`]), many at once by what varies ([`runs`]: [`rollouts`], [`sweeps`]), and campaigns ([`campaign`]), computes the soil's reaction for other engines
 //! ([`time_step`], and the [`ground`] under their wheels), reads [`telemetry`], exports tables ([`arrow`]) and
 //! serves the [`console`]. It does so without Python's lock, with threads that a forked process has too
 //! ([`threads`]), and Ctrl-C interrupts it ([`interrupt`]). Nothing here computes physics, and the
@@ -22,7 +22,6 @@ mod designs;
 mod errors;
 mod gradients;
 mod ground;
-mod heading_sweep;
 mod interrupt;
 mod learning;
 mod maps;
@@ -33,10 +32,12 @@ mod paths;
 mod replay;
 mod rollouts;
 mod routes;
+mod runs;
 mod simulators;
 mod slip_from_current;
 mod studies;
 mod style;
+mod sweeps;
 mod telemetry;
 mod terrain;
 mod threads;
@@ -79,8 +80,6 @@ mod _core {
     #[pymodule_export]
     use super::ground::Footprints;
     #[pymodule_export]
-    use super::heading_sweep::heading_sweep;
-    #[pymodule_export]
     use super::interrupt::panic;
     #[pymodule_export]
     use super::learning::Learner;
@@ -111,6 +110,8 @@ mod _core {
     };
     #[pymodule_export]
     use super::style::{spread_labels, style_colours};
+    #[pymodule_export]
+    use super::sweeps::{heading_map_sweep, heading_sweep, mission_sweep, wheel_speeds_sweep};
     #[pymodule_export]
     use super::telemetry::{TelemetryMessages, import_telemetry};
     #[pymodule_export]

@@ -19,6 +19,7 @@ use rayon::prelude::*;
 
 use crate::columns::{NO_WHEEL, wheel_names, wheel_row};
 use crate::descriptions::Document;
+use crate::runs::Index;
 use crate::validity::bits;
 use crate::varied::{self, VariedKeys};
 use crate::{errors, threads};
@@ -37,7 +38,7 @@ const SHARES: usize = 32;
 /// What all wheels share, and the keys of it that differ from wheel to wheel.
 pub(crate) struct Stand {
     soils: Vec<(Soil, Model)>,
-    wheel: Wheel,
+    wheels: Vec<Wheel>,
     gravity: f64,
     of_soils: VariedKeys,
     of_wheels: VariedKeys,
@@ -53,7 +54,9 @@ pub(crate) struct Inputs<'a> {
     pub(crate) pressed: &'a [f64],
     pub(crate) slip_ratios: &'a [f64],
     pub(crate) slip_angles_deg: &'a [f64],
+    /// Which soil and which wheel each has, if there are several.
     pub(crate) soils: Option<&'a [i64]>,
+    pub(crate) wheels: Option<&'a [i64]>,
 }
 
 /// The key of the gravity, beside those of soil and wheel.
@@ -64,7 +67,7 @@ impl Stand {
     /// * `vary`: keys of soil and wheel, and the gravity, with a number for each wheel
     pub(crate) fn new(
         soils: &[PyRef<'_, Document>],
-        wheel: &Document,
+        wheels: &[PyRef<'_, Document>],
         setting: &Document,
         vary: &Bound<'_, PyDict>,
         count: usize,
@@ -73,8 +76,9 @@ impl Stand {
         let loaded = soils.iter().map(|soil| soil.soil()).collect::<PyResult<Vec<_>>>()?;
         let documents: Vec<_> = loaded.iter().map(|soil| varied::parts(soil)).collect();
         let of_soils = VariedKeys::taken(vary, "soil.", &documents, count)?;
-        let loaded_wheel = wheel.wheel()?;
-        let of_wheels = VariedKeys::taken(vary, "wheel.", &[varied::parts(loaded_wheel)], count)?;
+        let wheels = wheels.iter().map(|wheel| wheel.wheel()).collect::<PyResult<Vec<_>>>()?;
+        let documents: Vec<_> = wheels.iter().map(|wheel| varied::parts(wheel)).collect();
+        let of_wheels = VariedKeys::taken(vary, "wheel.", &documents, count)?;
         let gravities = if vary.contains(GRAVITY)? {
             let gravities = varied::numbers(vary, GRAVITY, count)?;
             vary.del_item(GRAVITY)?;
@@ -95,27 +99,25 @@ impl Stand {
         });
         let soils = soils.collect::<PyResult<Vec<_>>>()?;
         let gravity = setting.scenario()?.value.gravity;
-        let wheel = loaded_wheel.value;
-        if of_soils.is_empty() && of_wheels.is_empty() && gravities.is_none() {
-            soils.iter().try_for_each(|(soil, _)| check_under(soil, &wheel, gravity))?;
+        let wheels: Vec<Wheel> = wheels.iter().map(|wheel| wheel.value).collect();
+        if let ([wheel], true) = (&*wheels, of_soils.is_empty() && of_wheels.is_empty())
+            && gravities.is_none()
+        {
+            soils.iter().try_for_each(|(soil, _)| check_under(soil, wheel, gravity))?;
         }
-        Ok(Self { soils, wheel, gravity, of_soils, of_wheels, gravities, outside_is_nan })
-    }
-
-    /// How many soils there are.
-    pub(crate) fn soil_count(&self) -> usize {
-        self.soils.len()
+        Ok(Self { soils, wheels, gravity, of_soils, of_wheels, gravities, outside_is_nan })
     }
 
     /// The keys of a wheel's soil, and of the wheel, that have a number of their own.
     pub(crate) fn changed(&self, inputs: &Inputs<'_>, place: usize) -> [Vec<(&str, f64)>; 2] {
         let soil = self.of_soils.at(inputs.soil_of(place), place).collect();
-        [soil, self.of_wheels.at(0, place).collect()]
+        [soil, self.of_wheels.at(inputs.wheel_of(place), place).collect()]
     }
 
     /// Whether anything of it differs from wheel to wheel.
     fn is_varied(&self) -> bool {
-        !self.of_soils.is_empty() || !self.of_wheels.is_empty() || self.gravities.is_some()
+        let keys = !self.of_soils.is_empty() || !self.of_wheels.is_empty();
+        keys || self.gravities.is_some() || self.wheels.len() > 1
     }
 
     /// A wheel's contact and model.
@@ -129,12 +131,13 @@ impl Stand {
     ) -> Result<(Contact, Model), ParameterError> {
         let of = inputs.soil_of(place);
         let &(mut soil, ref model) = &self.soils[of];
-        let mut wheel = self.wheel;
+        let mut wheel = self.wheels[inputs.wheel_of(place)];
         if !self.of_soils.is_empty() {
             soil = soil.with(self.of_soils.at(of, place)).map_err(Misfit::of_numbers)?;
         }
         if !self.of_wheels.is_empty() {
-            wheel = wheel.with(self.of_wheels.at(0, place)).map_err(Misfit::of_numbers)?;
+            let keys = self.of_wheels.at(inputs.wheel_of(place), place);
+            wheel = wheel.with(keys).map_err(Misfit::of_numbers)?;
         }
         let gravity = self.gravities.as_ref().map_or(self.gravity, |all| all[place]);
         soil.check_under(&wheel, gravity)?;
@@ -194,11 +197,11 @@ impl Stand {
         }
         if self.outside_is_nan {
             self.of_soils.leave_out(|place| inputs.soil_of(place));
-            self.of_wheels.leave_out(|_| 0);
+            self.of_wheels.leave_out(|place| inputs.wheel_of(place));
             return Ok(());
         }
         self.of_soils.check(|place| inputs.soil_of(place))?;
-        self.of_wheels.check(|_| 0)?;
+        self.of_wheels.check(|place| inputs.wheel_of(place))?;
         let misfit = |place: usize| {
             let error =
                 self.contact(inputs, place).err().filter(|_| !self.is_missing(inputs, place))?;
@@ -207,7 +210,7 @@ impl Stand {
         let count = inputs.pressed.len();
         let places = (0..count).into_par_iter().with_min_len(SHARE);
         let found = threads::detached(py, || places.find_map_first(misfit))?;
-        found.map_or(Ok(()), |(place, error)| Err(errors::misfit_at(place, count, &error)))
+        found.map_or(Ok(()), |(place, error)| Err(errors::misfit_at(place, count, &error.into())))
     }
 }
 
@@ -217,19 +220,28 @@ impl Inputs<'_> {
         self.soils.map_or(0, |soils| usize::try_from(soils[place]).unwrap_or(0))
     }
 
+    /// Which wheel it is.
+    pub(crate) fn wheel_of(&self, place: usize) -> usize {
+        self.wheels.map_or(0, |wheels| usize::try_from(wheels[place]).unwrap_or(0))
+    }
+
     /// Checks that all arrays are of one length and in their ranges.
-    pub(crate) fn check(&self, soils: usize, pressed: &RangeInclusive<f64>) -> PyResult<()> {
+    pub(crate) fn check(&self, stand: &Stand, pressed: &RangeInclusive<f64>) -> PyResult<()> {
         let (name, count) = (self.quantity.name, self.pressed.len());
         let lengths = [self.slip_ratios.len(), self.slip_angles_deg.len()];
-        let indices = self.soils.map_or(count, <[i64]>::len);
-        if lengths != [count, count] || indices != count {
+        if lengths != [count, count] {
             let message = "the arrays differ in length".to_owned();
             return Err(errors::parameter(message, name, None, "arrays of one length"));
         }
-        let known = |index: &i64| usize::try_from(*index).is_ok_and(|index| index < soils);
-        if soils == 0 || self.soils.is_some_and(|indices| !indices.iter().all(known)) {
-            let message = "there is no soil for every wheel".to_owned();
-            return Err(errors::parameter(message, "soil", None, "at least one soil"));
+        for (name, indices, known) in
+            [("soil", self.soils, stand.soils.len()), ("wheel", self.wheels, stand.wheels.len())]
+        {
+            let is_known = |index: &i64| usize::try_from(*index).is_ok_and(|index| index < known);
+            let fits = |all: &[i64]| all.len() == count && all.iter().all(is_known);
+            if known == 0 || !indices.is_none_or(fits) {
+                let message = format!("there is no {name} for each entry");
+                return Err(errors::parameter(message, name, None, format!("at least one {name}")));
+            }
         }
         check_or_nan(name, self.pressed, pressed)?;
         check_or_nan(SLIP_RATIO.name, self.slip_ratios, &study::SLIP_RATIO)?;
@@ -433,12 +445,13 @@ fn names(last: &'static str) -> Vec<&'static str> {
 pub(crate) fn settle<'py>(
     py: Python<'py>,
     soils: Vec<PyRef<'py, Document>>,
-    wheel: &Document,
+    wheels: Vec<PyRef<'py, Document>>,
     setting: &Document,
     load_n: PyReadonlyArray1<'py, f64>,
     slip_ratio: PyReadonlyArray1<'py, f64>,
     slip_angle_deg: PyReadonlyArray1<'py, f64>,
-    soil_index: Option<PyReadonlyArray1<'py, i64>>,
+    soil_index: Index<'py>,
+    wheel_index: Index<'py>,
     vary: &Bound<'py, PyDict>,
     outside_is_nan: bool,
 ) -> PyResult<Answer<'py>> {
@@ -450,10 +463,11 @@ pub(crate) fn settle<'py>(
         slip_ratios: &slip_ratios,
         slip_angles_deg: &slip_angles_deg,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
+        wheels: wheel_index.as_ref().map(|index| index.as_slice()).transpose()?,
     };
     let count = inputs.pressed.len();
-    let mut stand = Stand::new(&soils, wheel, setting, vary, count, outside_is_nan)?;
-    inputs.check(stand.soils.len(), &study::LOAD_N)?;
+    let mut stand = Stand::new(&soils, &wheels, setting, vary, count, outside_is_nan)?;
+    inputs.check(&stand, &study::LOAD_N)?;
     stand.check(py, &inputs)?;
     let compute = |mut share: Share<'_>| {
         let mut flags = Vec::new();
@@ -484,19 +498,23 @@ pub(crate) fn settle<'py>(
 pub(crate) fn wheel_forces<'py>(
     py: Python<'py>,
     soils: Vec<PyRef<'py, Document>>,
-    wheel: &Document,
+    wheels: Vec<PyRef<'py, Document>>,
     setting: &Document,
     sinkage_mm: PyReadonlyArray1<'py, f64>,
     slip_ratio: PyReadonlyArray1<'py, f64>,
     slip_angle_deg: PyReadonlyArray1<'py, f64>,
-    soil_index: Option<PyReadonlyArray1<'py, i64>>,
+    soil_index: Index<'py>,
+    wheel_index: Index<'py>,
     vary: &Bound<'py, PyDict>,
     outside_is_nan: bool,
 ) -> PyResult<Answer<'py>> {
     let count = sinkage_mm.as_slice()?.len();
-    let mut stand = Stand::new(&soils, wheel, setting, vary, count, outside_is_nan)?;
+    let mut stand = Stand::new(&soils, &wheels, setting, vary, count, outside_is_nan)?;
     let depth = |wheel: &Wheel| SINKAGE.unit.from_si(wheel.shearing_radius());
-    let deepest = if stand.of_wheels.is_empty() { depth(&stand.wheel) } else { f64::MAX };
+    let deepest = match &*stand.wheels {
+        [wheel] if stand.of_wheels.is_empty() => depth(wheel),
+        _ => f64::MAX,
+    };
     let pressed = inside(sinkage_mm.as_slice()?, &(0.0..=deepest), outside_is_nan);
     let [slip_ratios, slip_angles_deg] = slips(&slip_ratio, &slip_angle_deg, outside_is_nan)?;
     let inputs = Inputs {
@@ -505,10 +523,11 @@ pub(crate) fn wheel_forces<'py>(
         slip_ratios: &slip_ratios,
         slip_angles_deg: &slip_angles_deg,
         soils: soil_index.as_ref().map(|index| index.as_slice()).transpose()?,
+        wheels: wheel_index.as_ref().map(|index| index.as_slice()).transpose()?,
     };
-    inputs.check(stand.soils.len(), &(0.0..=deepest))?;
+    inputs.check(&stand, &(0.0..=deepest))?;
     stand.check(py, &inputs)?;
-    if !stand.of_wheels.is_empty() && !outside_is_nan {
+    if deepest == f64::MAX && !outside_is_nan {
         for (place, sinkage) in inputs.pressed.iter().enumerate() {
             let Ok((contact, _)) = stand.contact(&inputs, place) else { continue };
             let range = 0.0..=depth(&contact.wheel);

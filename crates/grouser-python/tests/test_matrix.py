@@ -45,6 +45,7 @@ MOTOR = {
 #: Ground that rises by 0.05 to the east, 8 m wide.
 MAP = gr.Terrain(0.1 * np.arange(5.0) * np.ones((5, 1)), cell_size_m=2.0)
 SLOPES = [4.0]
+MASSES = {"rover.body.mass_kg": [4.0, 5.0]}
 #: The smallest forecast.
 ONE_CHOICE: dict[str, Any] = {
     **{"ground": "as-measured", "scaling": "bekker", "mass": "equal-mass"},
@@ -330,6 +331,19 @@ def on_stand(run: gr.Scenario) -> Numbers:
     return [(found.wheels.drawbar_pull_n, np.shape(found.wheels.sinkage_mm))]
 
 
+def stands(run: gr.Scenario) -> Numbers:
+    soil, wheel, own = wheel_of(run)
+    found = gr.wheel_test(
+        soil, wheel, load_n=17.0, slip_ratio=[0.1, 0.3], vary={"wheel.width_m": [0.05, 0.06]}, **own
+    )
+    return [(found.drawbar_pull_n, (2, 1, 1, 2))]
+
+
+def of_sweep(found: gr.Sweep, rows: int = 1) -> Numbers:
+    assert set(found.status.ravel()) == {"ok"}
+    return [(found.yaw_deg.reshape(2, rows), (2, rows))]
+
+
 def mapped(run: gr.Scenario) -> Numbers:
     found = gr.map(MAP, run, samples=2)
     return [(np.nan_to_num(found.slope_deg.values), MAP.shape)]
@@ -390,6 +404,18 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "heading_map": lambda s: [
             (gr.heading_map(s, slope_deg=SLOPES, course_deg=[0.0]).yaw_deg, (1, 1, 1))
         ],
+        "heading[vary]": lambda s: of_sweep(gr.heading(s, slope_deg=SLOPES, vary=MASSES, samples=2)),
+        "heading[vary, nominal]": lambda s: of_sweep(
+            gr.heading(s, slope_deg=SLOPES, vary=MASSES, nominal=True)
+        ),
+        "heading_map[vary]": lambda s: of_sweep(
+            gr.heading_map(s, slope_deg=SLOPES, course_deg=[0.0], vary=MASSES)
+        ),
+        "wheel_speeds[vary]": lambda s: of_sweep(
+            gr.wheel_speeds(s, slope_deg=SLOPES, most_speed_ratio=1.2, vary=MASSES), 3
+        ),
+        "card[vary]": lambda s: of_sweep(gr.card(s, slope_deg=SLOPES, samples=2, vary=MASSES)),
+        "mission[vary]": lambda s: [(gr.mission(mission_of(s), vary=MASSES).x_m, (2,))],
         "wheel_speeds": lambda s: [
             (gr.wheel_speeds(s, slope_deg=SLOPES, most_speed_ratio=1.2).slip_ratio, (1, 3))
         ],
@@ -405,6 +431,7 @@ CALLS: dict[str, tuple[Callable[[gr.Scenario], Numbers], tuple[str, ...]]] = {
         "settle": lambda s: one_wheel(s, gr.settle, load_n=17.0),
         "wheel_forces": lambda s: one_wheel(s, gr.wheel_forces, sinkage_mm=10.0),
         "wheel_test": on_stand,
+        "wheel_test[vary]": stands,
         "calibrate": fitted,
         "calibrate_plates": lambda s: of_fit(
             gr.calibrate_plates("cullinan-plates", s.soil, point_fit=True)
@@ -486,7 +513,7 @@ def test_every_public_call_is_in_the_matrix() -> None:
 
 
 #: Calls that take up to seconds meet those features alone that change what they ask.
-SLOW = ("wheel_speeds", "route", "map", "forecast", "design")
+SLOW = ("wheel_speeds", "wheel_speeds[vary]", "route", "map", "forecast", "design")
 CHANGED = ("none", "map", "zones", "motors", "steering", "belief")
 PAIRS = [(it, call) for it in FEATURES for call in CALLS if call not in SLOW or it in CHANGED]
 

@@ -36,6 +36,7 @@ from ._animations import Animation
 from ._calibration import Calibration, calibrate, calibrate_plates, calibrate_shear
 from ._descriptions import Design, Mission, Rover, Scenario, Site, Soil, Wheel
 from ._errors import present_name as _present_name
+from ._errors import refusing_vary as _refusing_vary
 from ._errors import (
     CalibrationError,
     CampaignDiskError,
@@ -58,7 +59,7 @@ from ._designs import BestDesign, design
 from ._forecast import Forecast, forecast
 from ._gradients import Gradient
 from ._heading_band import HeadingBand, HeadingMapBand
-from ._headings import HeadingMap, Headings, HeadingSweep, heading, heading_map
+from ._headings import HeadingMap, Headings, heading, heading_map
 from ._learning import Learner, learn
 from ._maps import map
 from ._measurements import ImportedWheelTests, import_wheel_tests
@@ -72,6 +73,7 @@ from ._linear import LinearStep
 from ._runs import Run, RunBatch, RunState
 from ._slip_from_current import SlipEstimator
 from ._studies import Trajectory, TraverseBand, simulate
+from ._sweeps import Sweep
 from ._telemetry import ImportedTelemetry, import_telemetry
 from ._terrain import Terrain
 from ._validation import (
@@ -122,7 +124,6 @@ __all__ = [
     "Gradient",
     "HeadingBand",
     "HeadingMap",
-    "HeadingSweep",
     "HeadingMapBand",
     "Headings",
     "ImportedTelemetry",
@@ -148,6 +149,7 @@ __all__ = [
     "Site",
     "SlipEstimator",
     "Soil",
+    "Sweep",
     "Terrain",
     "Trajectory",
     "TraverseBand",
@@ -191,6 +193,10 @@ __all__ = [
     "wheel_speeds",
     "wheel_test",
 ]
+
+# Calls whose keywords make no description refuse `vary` here, others where that is read.
+for _name in ("calibrate", "calibrate_plates", "calibrate_shear", "validate"):
+    globals()[_name] = _refusing_vary(globals()[_name])
 
 # One canonical path for each name, in messages and in documentation.
 for _name in __all__:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +14,9 @@ from ._arrays import Floats, line, number, whole_number
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._studies import scenario_of
+from ._sweeps import Sweep, Vary, entered, of_each, sweep_of
 from ._verdicts import limits_of
+from ._wheels import Outside
 
 if TYPE_CHECKING:
     import pandas
@@ -116,6 +118,42 @@ class Card(_tables.Tabular):
 _SHOWN = tuple(one.name for one in fields(Card)[:-3])
 
 
+@overload
+def card(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    vary: Vary,
+    slope_deg: ArrayLike | None = ...,
+    samples: int = ...,
+    seed: int = ...,
+    rim_speed_m_s: float | None = ...,
+    uphill: Literal["left", "right"] = ...,
+    rule: Mapping[str, float] | None = ...,
+    holds_heading: bool = ...,
+    accept_contradiction: bool = ...,
+    outside: Outside = ...,
+    **changes: Any,
+) -> Sweep: ...
+
+
+@overload
+def card(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    slope_deg: ArrayLike | None = ...,
+    samples: int = ...,
+    seed: int = ...,
+    rim_speed_m_s: float | None = ...,
+    uphill: Literal["left", "right"] = ...,
+    rule: Mapping[str, float] | None = ...,
+    holds_heading: bool = ...,
+    accept_contradiction: bool = ...,
+    **changes: Any,
+) -> Card: ...
+
+
 def card(
     scenario: Scenario | Source | None = None,
     /,
@@ -128,8 +166,10 @@ def card(
     rule: Mapping[str, float] | None = None,
     holds_heading: bool = False,
     accept_contradiction: bool = False,
+    vary: Vary | None = None,
+    outside: Outside = "raise",
     **changes: Any,
-) -> Card:
+) -> Card | Sweep:
     """The operator's card: on each slope whether to go, which heading to set, how often to set it
     again, and where to stop.
 
@@ -164,12 +204,15 @@ def card(
         it again.
     accept_contradiction : bool
         Whether a soil is taken whose document says that what was learnt contradicts itself.
+    vary, outside
+        As for `heading`: each entry is a card of its own, and slopes are the axis of the `Sweep`.
     **changes
         Keys of the scenario with other values.
 
     Returns
     -------
     Card
+        With ``vary`` a `Sweep` of its rows.
 
     Raises
     ------
@@ -189,6 +232,14 @@ def card(
     ['go']
     """
     slopes = np.arange(61.0) if slope_deg is None else line("slope_deg", slope_deg)
+    if vary is not None:
+        own = ("slope_deg",)
+        asked = entered(Scenario, scenario, changes, vary, outside, taken=own, by_document=True)
+        settings: dict[str, Any] = {"slope_deg": slopes, "samples": samples, "seed": seed}
+        settings |= {"rim_speed_m_s": rim_speed_m_s, "uphill": uphill, "rule": rule}
+        settings |= {"holds_heading": holds_heading, "accept_contradiction": accept_contradiction}
+        cards = of_each(asked, lambda run: card(run, **settings).columns)
+        return sweep_of(asked, cards, {"slope_deg": slopes}, "card", ("yaw_deg",))
     run = scenario_of(scenario, changes)
     if uphill not in ("left", "right"):
         raise ParameterError(f"uphill {uphill!r}: it must be 'left' or 'right'", "uphill")

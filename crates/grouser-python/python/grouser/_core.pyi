@@ -55,11 +55,13 @@ __all__ = [
     "heading",
     "heading_map",
     "heading_map_band",
+    "heading_map_sweep",
     "heading_sweep",
     "import_telemetry",
     "import_wheel_tests",
     "meant_keys",
     "merge_campaign",
+    "mission_sweep",
     "mobility_map",
     "most_shard_bytes",
     "not_carried",
@@ -95,6 +97,7 @@ __all__ = [
     "validate_slopes",
     "wheel_forces",
     "wheel_speeds",
+    "wheel_speeds_sweep",
     "wheel_test_band",
 ]
 
@@ -111,6 +114,16 @@ _Floats = NDArray[np.float64]
 _SystemKeys = tuple[list[int], list[float], str]
 _Reading = tuple[Sequence[float] | None, int | None, float | None]
 _Data = str | os.PathLike[str] | tuple[str, str]
+_Asked = tuple[
+    Sequence[Document],
+    NDArray[np.int64] | None,
+    Sequence[Document],
+    NDArray[np.int64] | None,
+    dict[str, _Floats],
+    int,
+    bool,
+]
+_Swept = tuple[list[tuple[dict[str, Any], int]], list[int], list[tuple[int, str]]]
 
 @final
 class Document:
@@ -427,12 +440,13 @@ def rover_of_urdf(
 def to_toml(label: str, table: dict[str, Any]) -> str: ...
 def settle(
     soils: Sequence[Document],
-    wheel: Document,
+    wheels: Sequence[Document],
     setting: Document,
     load_n: _Floats,
     slip_ratio: _Floats,
     slip_angle_deg: _Floats,
     soil_index: NDArray[np.int64] | None,
+    wheel_index: NDArray[np.int64] | None,
     vary: dict[str, Any],
     outside_is_nan: bool,
 ) -> tuple[_Floats, list[str]]: ...
@@ -450,12 +464,13 @@ def settle_gradients(
 ) -> tuple[_Floats, NDArray[np.bool_], list[str], list[str]]: ...
 def wheel_forces(
     soils: Sequence[Document],
-    wheel: Document,
+    wheels: Sequence[Document],
     setting: Document,
     sinkage_mm: _Floats,
     slip_ratio: _Floats,
     slip_angle_deg: _Floats,
     soil_index: NDArray[np.int64] | None,
+    wheel_index: NDArray[np.int64] | None,
     vary: dict[str, Any],
     outside_is_nan: bool,
 ) -> tuple[_Floats, list[str]]: ...
@@ -480,15 +495,7 @@ def drive_mission(
     mission: Document, sampling: tuple[int, int] | None
 ) -> list[dict[str, Any]]: ...
 def rollout(
-    scenarios: Sequence[Document],
-    scenario_index: NDArray[np.int64] | None,
-    soils: Sequence[Document],
-    soil_index: NDArray[np.int64] | None,
-    varied: dict[str, Any],
-    count: int,
-    keep: bool,
-    gradients: Sequence[str] | None,
-    outside_is_nan: bool,
+    asked: _Asked, keep: bool, gradients: Sequence[str] | None
 ) -> dict[str, Any]: ...
 def card(
     scenario: Document,
@@ -518,15 +525,14 @@ def heading(
     rule: Sequence[float],
     gradients: Sequence[str] | None,
 ) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any] | None]: ...
-def heading_sweep(
-    scenario: Document,
-    soils: Sequence[Document],
-    soil_index: NDArray[np.int64] | None,
-    varied: dict[str, _Floats],
-    count: int,
-    steering: str,
-    outside_is_nan: bool,
-) -> tuple[dict[str, Any], dict[str, Any], list[list[int]], list[tuple[int, str]]]: ...
+def heading_sweep(asked: _Asked, slope_deg: _Floats, steering: str) -> _Swept: ...
+def heading_map_sweep(
+    asked: _Asked, slope_deg: _Floats, course_deg: _Floats, rim_speed_m_s: float
+) -> _Swept: ...
+def wheel_speeds_sweep(
+    asked: _Asked, slope_deg: _Floats, most_speed_ratio: float
+) -> _Swept: ...
+def mission_sweep(asked: _Asked) -> _Swept: ...
 def simulated_wheel_test(
     soil: Document,
     wheel: Document,
@@ -550,7 +556,7 @@ def replay(
     scenario: Document,
     paths: Sequence[str],
     text: str | None,
-    slope_is_known: bool,
+    drive: tuple[bool, float | None, float | None],
     sampling: tuple[int, int],
     how: tuple[str | None, int | None] = ...,
 ) -> tuple[

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeVar, Union
 
 from . import _core, _keys
 from ._arrays import whole_number
-from ._errors import ParameterError
+from ._errors import ParameterError, refuse_vary
 from ._terrain import Terrain
 
 _Self = TypeVar("_Self", bound="_Description")
@@ -54,6 +54,7 @@ class _Description:
         self._take(self._read(source, changes))
 
     def _read(self, source: object, changes: dict[str, Any]) -> _core.Document:
+        refuse_vary(changes)
         kind, label = self._kind, f"{type(self).__name__}(…)"
         if isinstance(source, type(self)):
             return _core.read_document_text(kind, label, source._toml, changes, source._files)

@@ -4,7 +4,12 @@ them."""
 from __future__ import annotations
 
 import errno
-from collections.abc import Container
+from collections.abc import Callable, Container
+from functools import wraps
+from typing import ParamSpec, TypeVar
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
 
 
 class GrouserError(Exception):
@@ -212,3 +217,33 @@ def present_name(name: str, known: Container[str]) -> str:
 
     present = [it for it in _core.present_names(name) if it in known]
     return f"; did you mean {' or '.join(present)}?" if present else ""
+
+
+def refuse_vary(keywords: Container[str]) -> None:
+    """Refuses ``vary`` among the keywords of a call that does not take it, and says which do."""
+    if "vary" not in keywords:
+        return
+    import inspect
+
+    import grouser
+
+    calls = [getattr(grouser, name) for name in grouser.__all__]
+    calls = [it for it in calls if inspect.isfunction(it)]
+    takers = sorted(it.__name__ for it in calls if "vary" in inspect.signature(it).parameters)
+    raise ParameterError(
+        f"vary is no key here, it is an argument of {', '.join(takers)}, of which rollout is for runs: "
+        "elsewhere call once for each of several descriptions, as .replace(…) makes them, or take a "
+        "Campaign, whose parameters vary",
+        "vary",
+    )
+
+
+def refusing_vary(call: Callable[_P, _R]) -> Callable[_P, _R]:
+    """A call without keywords of its own that says the same."""
+
+    @wraps(call)
+    def refusing(*args: _P.args, **kwargs: _P.kwargs) -> _R:
+        refuse_vary(kwargs)
+        return call(*args, **kwargs)
+
+    return refusing

@@ -3,28 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _shown, _tables
-from ._arrays import Floats, broadcast, line, number, varied, whole_number
+from ._arrays import Floats, line, number, whole_number
 from ._heading_band import HeadingBand, HeadingMapBand
 from ._descriptions import Scenario, Soil, Source
 from ._errors import ParameterError
 from ._gradients import Gradient, Keys, keys_of, of_columns
 from ._models import MODELS, ByModel, each_model
 from ._studies import columns_of, scenario_of, soil_of
+from ._sweeps import Sweep, Vary, entered, of_all, of_each, sweep_of
 from ._verdicts import limits_of
-from ._wheels import Outside, names_of, outside_is_nan, soils_of
+from ._wheels import Outside, Soils
 
 if TYPE_CHECKING:
     import pandas
     import xarray
     from matplotlib.axes import Axes
 
+#: Slopes of a heading [°].
+_SLOPES = (5.0, 10.0, 15.0, 20.0)
+#: Those of a map.
+_MAP_SLOPES = tuple(range(0, 25, 2))
 #: Fields of a `HeadingMap`; `Headings` have all but the power.
 _HELD = tuple(name for name in _tables.COLUMNS["heading"] if name != "power_w")
 
@@ -49,18 +54,6 @@ class _Held:
     """Work of the wheels per metre along the course [J/m]."""
     yaw_moment_nm: Floats
     """Yaw moment left over [N·m]; negative turns the nose downhill."""
-
-
-@dataclass(frozen=True, eq=False)
-class _HeldTo(_Held):
-    """The same, each entry with where its curve ends."""
-
-    limit_slope_deg: Floats
-    """The steepest slope on which the course can be held [°], the same for entries that differ in their
-    slopes alone; NaN where the rover cannot move."""
-    limited_by: NDArray[np.object_]
-    """What ends the curve there: ``wheels``, ``ground-strength``, ``range`` or ``not-found``, as in
-    `Headings`; None where the rover cannot move."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,43 +168,23 @@ class Headings(_Held, _tables.Tabular):
         return f"<Headings on {self.slope_deg[0]:g}°: {band}; as written {steepest}>"
 
 
-@dataclass(frozen=True, eq=False)
-class HeadingSweep(_HeldTo, _tables.Entries):
-    """Heading offsets that hold the contour line for many rovers, soils and slopes: arrays of the shape
-    to which slopes and varied numbers broadcast, NaN where no heading holds the contour.
-
-    Examples
-    --------
-    >>> import grouser as gr
-    >>> found = gr.heading(
-    ...     slope_deg=[5.0, 10.0], vary={"soil.friction_angle_deg": [[34.0], [38.0]]}, nominal=True
-    ... )
-    >>> found.shape, bool((found.yaw_deg[0] > found.yaw_deg[1]).all())
-    ((2, 2), True)
-    >>> on_sand = found.to_xarray(dims=["soil.friction_angle_deg", "slope_deg"])
-    >>> bool(on_sand.limit_slope_deg.sel({"soil.friction_angle_deg": 34.0, "slope_deg": 5.0}) < 20.0)
-    True
-    """
-
-    steering_deg: Floats | Any = None
-    """Steering angle of every wheel that is steered [°], positive uphill; None without
-    ``steering="crab"``."""
-    inputs: Mapping[str, NDArray[Any]] = field(default_factory=dict)
-    """What was asked, by name: arrays as given, which broadcast to `shape`; soils by their names, if
-    there were several."""
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of every field."""
-        return self.status.shape
-
-    def _results(self) -> dict[str, Any]:
-        names = [one.name for one in fields(self) if one.name != "inputs"]
-        return {name: it for name, it in columns_of(self, names).items() if it is not None}
-
-    def __repr__(self) -> str:
-        held = int((self.status == "ok").sum())
-        return f"<HeadingSweep of shape {self.shape}: {held} of {len(self)} hold the contour>"
+@overload
+def heading(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    vary: Vary,
+    model: Literal["all"],
+    slope_deg: ArrayLike = ...,
+    steering: Literal["none", "crab"] = ...,
+    nominal: bool = ...,
+    samples: int = ...,
+    seed: int = ...,
+    rule: Mapping[str, float] | None = ...,
+    uncertainty: bool | None = ...,
+    outside: Outside = ...,
+    **changes: Any,
+) -> ByModel[Sweep]: ...
 
 
 @overload
@@ -219,14 +192,18 @@ def heading(
     scenario: Scenario | Source | None = None,
     /,
     *,
-    vary: Mapping[str, ArrayLike],
-    nominal: Literal[True],
+    vary: Vary,
+    model: str | None = ...,
     slope_deg: ArrayLike = ...,
     steering: Literal["none", "crab"] = ...,
-    model: str | None = ...,
+    nominal: bool = ...,
+    samples: int = ...,
+    seed: int = ...,
+    rule: Mapping[str, float] | None = ...,
+    uncertainty: bool | None = ...,
     outside: Outside = ...,
     **changes: Any,
-) -> HeadingSweep: ...
+) -> Sweep: ...
 
 
 @overload
@@ -270,7 +247,7 @@ def heading(
     /,
     *,
     model: str | None = None,
-    slope_deg: ArrayLike = (5.0, 10.0, 15.0, 20.0),
+    slope_deg: ArrayLike = _SLOPES,
     steering: Literal["none", "crab"] = "none",
     nominal: bool = False,
     samples: int = 40,
@@ -278,10 +255,10 @@ def heading(
     rule: Mapping[str, float] | None = None,
     gradients: Keys | None = None,
     uncertainty: bool | None = None,
-    vary: Mapping[str, ArrayLike] | None = None,
+    vary: Vary | None = None,
     outside: Outside = "raise",
     **changes: Any,
-) -> Headings | ByModel[Headings] | HeadingSweep:
+) -> Headings | Sweep | ByModel[Headings] | ByModel[Sweep]:
     """The heading offset that holds the contour line, on each slope ([FourWheel], Fig. 10), and
     whether to drive there.
 
@@ -322,20 +299,22 @@ def heading(
     uncertainty : bool, optional
         Samples are the usual answer: it changes nothing.
     vary : mapping of str to array_like, optional
-        Numbers of the scenario by their keys, such as ``soil.cohesion_kpa``, ``rover.body.mass_kg`` or
-        ``gravity_m_s2``: they broadcast with the slopes, and with ``soil`` where that is a sequence.
-        It goes with ``nominal=True``, without ``gradients``. Entries that differ in their slopes alone
-        share a curve, which is the dear part.
+        What differs from entry to entry, by the keys of the scenario: numbers, as
+        ``soil.cohesion_kpa`` or ``gravity_m_s2``, whole numbers, words, soils and rovers. They broadcast
+        with each other, and with ``soil`` and ``rover`` where those are sequences. With ``nominal=True``
+        no scenario is read for an entry, and ``slope_deg`` may vary, too: entries that differ in their
+        slopes alone share a curve, which is the dear part. Else each entry is computed by itself. Not
+        with ``gradients``.
     outside : {"raise", "nan"}
-        With ``"nan"`` an entry of ``vary`` with a number out of its range (`range_of`), or with numbers
-        that do not go together, is NaN with a `HeadingSweep.status`; by default it is an error.
+        With ``"nan"`` an entry of ``vary`` with a number out of its range (`range_of`), or with what
+        does not go together, is NaN with a `Sweep.status`; by default it is an error.
     **changes
         Keys of the scenario with other values.
 
     Returns
     -------
     Headings
-        Or `ByModel` of them, for all models; or `HeadingSweep`, with ``vary``.
+        With ``vary`` a `Sweep`; for all models `ByModel` of either.
 
     Raises
     ------
@@ -364,21 +343,28 @@ def heading(
         raise ParameterError(f'steering is {steering!r}, it must be "none" or "crab"', "steering")
     if uncertainty and steering == "crab":
         raise ParameterError('uncertainty goes with steering="none"', "uncertainty")
-    if vary is not None:
-        for name, is_asked in {
-            "nominal=False": not nominal,
-            "gradients": gradients is not None,
-            "model='all'": model == "all",
-        }.items():
-            if is_asked:
-                raise ParameterError(f"vary does not go with {name}: it takes nominal=True", "vary")
-        changes = changes if model is None else {**changes, "model": model}
-        return _sweep(scenario, slope_deg, vary, steering, outside, changes)
+    if vary is not None and gradients is not None:
+        raise ParameterError("vary does not go with gradients: leave one of them out", "vary")
     if model == "all":
         settings: dict[str, Any] = {"slope_deg": slope_deg, "steering": steering}
         settings |= {"nominal": nominal, "samples": samples, "seed": seed, "rule": rule}
-        settings |= {"gradients": gradients}
+        settings |= {"gradients": gradients, "vary": vary, "outside": outside}
         return each_model(lambda name: heading(scenario, model=name, **settings, **changes))
+    if vary is not None:
+        changes = changes if model is None else {**changes, "model": model}
+        is_native = nominal or steering == "crab"
+        taken = ("slope_deg",) if slope_deg is not _SLOPES or not is_native else ()
+        asked = entered(
+            Scenario, scenario, changes, vary, outside, taken=taken, by_document=not is_native
+        )
+        slopes = line("slope_deg", slope_deg)
+        axes = {} if "slope_deg" in asked.flat else {"slope_deg": slopes}
+        if is_native:
+            swept = of_all(asked, _core.heading_sweep, slopes, steering)
+            return sweep_of(asked, swept, axes, "heading", (*_HELD, "limit_slope_deg"))
+        settings = {"slope_deg": slopes, "samples": samples, "seed": seed, "rule": rule}
+        each = of_each(asked, lambda run: _rows_of(heading(run, **settings)))
+        return sweep_of(asked, each, axes, "heading", ("yaw_deg",))
     changes = changes if model is None else {**changes, "model": model}
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
     sampling = None
@@ -407,57 +393,16 @@ def heading(
     )
 
 
-def _sweep(
-    scenario: Scenario | Source | None,
-    slope_deg: ArrayLike,
-    vary: Mapping[str, ArrayLike],
-    steering: str,
-    outside: Outside,
-    changes: dict[str, Any],
-) -> HeadingSweep:
-    """Headings over slopes and numbers that vary."""
-    soil = changes.get("soil")
-    soils: list[Soil] = []
-    places = np.zeros((), dtype=np.int64)
-    if isinstance(soil, (list, tuple, np.ndarray)):
-        soils, places = soils_of(soil)
-        changes = {name: it for name, it in changes.items() if name != "soil"}
-    run = scenario_of(scenario, changes)
-    asked = broadcast(
-        {**varied(vary, taken=("slope_deg",)), "slope_deg": slope_deg}, {"soil": places}
-    )
-    [soil_index] = asked.places
-    rows, limits, order, missing = _core.heading_sweep(
-        run._document,
-        [one._document for one in soils],
-        soil_index if len(soils) > 1 else None,
-        asked.flat,
-        soil_index.size,
-        steering,
-        outside_is_nan(outside),
-    )
-    at, curve = np.array(order, dtype=np.int64).reshape(-1, 2).T
-    ends = {name: it[curve] for name, it in _tables.arrays_of(limits).items()}
-    found = {**_tables.arrays_of(rows), **ends}
-
-    def scattered(name: str) -> NDArray[Any]:
-        words = name in ("status", "flags", "limited_by")
-        cells = np.full(soil_index.size, None if words else np.nan, dtype=object if words else None)
-        if name in found:
-            cells[at] = found[name]
-        return cells
-
-    names = [one.name for one in fields(HeadingSweep) if one.name not in ("inputs", "steering_deg")]
-    names += ["steering_deg"] if steering == "crab" else []
-    columns = {name: scattered(name) for name in names}
-    for place, why in missing:
-        columns["status"][place], columns["flags"][place] = why, ""
-    shaped: dict[str, Any] = {name: it.reshape(asked.shape) for name, it in columns.items()}
-    return HeadingSweep(**shaped, inputs={**names_of(soils, places), **asked.given})
+def _rows_of(found: Headings) -> dict[str, Any]:
+    """All columns, with the steepest slope in each row."""
+    limit = np.nan if found.limit_slope_deg is None else found.limit_slope_deg
+    ends = {"limit_slope_deg": limit, "limited_by": found.limited_by}
+    shape = found.slope_deg.shape
+    return {**found.columns, **{name: np.full(shape, it) for name, it in ends.items()}}
 
 
 @dataclass(frozen=True, eq=False)
-class HeadingMap(_HeldTo, _tables.Tabular):
+class HeadingMap(_Held, _tables.Tabular):
     """Heading offsets over soil, course and slope: arrays of shape (soils, courses, slopes), NaN
     where no yaw holds the course.
 
@@ -470,6 +415,12 @@ class HeadingMap(_HeldTo, _tables.Tabular):
     True
     """
 
+    limit_slope_deg: Floats
+    """The steepest slope on which the course can be held [°], the same for all slopes; NaN where the
+    rover cannot move."""
+    limited_by: NDArray[np.object_]
+    """What ends the curve there: ``wheels``, ``ground-strength``, ``range`` or ``not-found``, as in
+    `Headings`; None where the rover cannot move."""
     soil: tuple[str, ...]
     """The soils' names."""
     course_deg: Floats
@@ -529,19 +480,55 @@ class HeadingMap(_HeldTo, _tables.Tabular):
         return f"<HeadingMap of {' × '.join(map(str, self.status.shape))} soils, courses, slopes>"
 
 
+@overload
 def heading_map(
     scenario: Scenario | Source | None = None,
     /,
     *,
-    soil: Soil | Source | Sequence[Soil | Source] | None = None,
-    slope_deg: ArrayLike = tuple(range(0, 25, 2)),
+    vary: Vary,
+    soil: Soils | None = ...,
+    slope_deg: ArrayLike = ...,
+    course_deg: ArrayLike = ...,
+    rim_speed_m_s: float = ...,
+    uncertainty: bool = ...,
+    samples: int = ...,
+    seed: int = ...,
+    outside: Outside = ...,
+    **changes: Any,
+) -> Sweep: ...
+
+
+@overload
+def heading_map(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    soil: Soil | Source | Sequence[Soil | Source] | None = ...,
+    slope_deg: ArrayLike = ...,
+    course_deg: ArrayLike = ...,
+    rim_speed_m_s: float = ...,
+    uncertainty: bool = ...,
+    samples: int = ...,
+    seed: int = ...,
+    **changes: Any,
+) -> HeadingMap: ...
+
+
+def heading_map(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    soil: Soils | None = None,
+    slope_deg: ArrayLike = _MAP_SLOPES,
     course_deg: ArrayLike = tuple(range(-60, 61, 15)),
     rim_speed_m_s: float = 0.06,
     uncertainty: bool = False,
     samples: int = 200,
     seed: int = 1,
+    vary: Vary | None = None,
+    outside: Outside = "raise",
     **changes: Any,
-) -> HeadingMap:
+) -> HeadingMap | Sweep:
     """The heading offset that holds a course, over soil, course and slope.
 
     Parameters
@@ -560,12 +547,16 @@ def heading_map(
         Whether to sample soil and model, for `HeadingMap.band`.
     samples, seed : int
         Number of samples, 2 to 100000, and their seed.
+    vary, outside
+        As for `heading`; ``soil`` broadcasts then, and courses and slopes are the axes of the `Sweep`.
+        With ``uncertainty`` each entry is computed by itself.
     **changes
         Keys of the scenario with other values.
 
     Returns
     -------
     HeadingMap
+        With ``vary`` a `Sweep`.
 
     Raises
     ------
@@ -584,14 +575,32 @@ def heading_map(
     >>> bool(down < along < up)
     True
     """
+    slopes, courses = line("slope_deg", slope_deg), line("course_deg", course_deg)
+    speed = number("rim_speed_m_s", rim_speed_m_s)
+    if vary is not None:
+        keys = changes if soil is None else {**changes, "soil": soil}
+        own = ("slope_deg",) if slope_deg is not _MAP_SLOPES or uncertainty else ()
+        taken = ("course_deg", *own)
+        asked = entered(
+            Scenario, scenario, keys, vary, outside, taken=taken, by_document=uncertainty
+        )
+        axes = {"course_deg": courses, "slope_deg": slopes}
+        if "slope_deg" in asked.flat:
+            del axes["slope_deg"]
+        names = (*_tables.COLUMNS["heading"], "limit_slope_deg")
+        if not uncertainty:
+            swept = of_all(asked, _core.heading_map_sweep, slopes, courses, speed)
+            return sweep_of(asked, swept, axes, "heading", names)
+        settings: dict[str, Any] = {"slope_deg": slopes, "course_deg": courses, "seed": seed}
+        settings |= {"rim_speed_m_s": speed, "uncertainty": True, "samples": samples}
+        each = of_each(asked, lambda run: heading_map(run, **settings)._table())
+        return sweep_of(asked, each, axes, "heading", names)
     one = scenario_of(scenario, changes)
     several = isinstance(soil, Sequence) and not isinstance(soil, str)
     soils: list[Any] = list(soil) if several else [soil]  # type: ignore[arg-type]
     if not soils:
         raise ParameterError("soil is empty, it must be at least one", "soil")
     runs = [one if it is None else one.replace(soil=soil_of(it)) for it in soils]
-    slopes, courses = line("slope_deg", slope_deg), line("course_deg", course_deg)
-    speed = number("rim_speed_m_s", rim_speed_m_s)
     found = _core.heading_map([run._document for run in runs], slopes, courses, speed)
     shape = (len(runs), len(courses), len(slopes))
     cells: dict[str, Any] = _tables.arrays_of(found)

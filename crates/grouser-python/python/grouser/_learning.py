@@ -309,7 +309,8 @@ class Learner:
         if not before:
             made = self._native.scenario_now("telemetry", _count(samples), whole_number("seed", seed))
             scenario = _scenario(made)
-        return _card(scenario, samples=samples, seed=seed, **settings)
+        card: Card = _card(scenario, samples=samples, seed=seed, **settings)
+        return card
 
     def to_arviz(self, *, samples: int = 1000, seed: int = 1) -> Any:
         """Samples of the soil's keys for ArviZ, a variable for each, before the drive (the group

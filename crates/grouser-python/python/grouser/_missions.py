@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,10 @@ from . import _core, _tables
 from ._animations import Animation
 from ._arrays import Floats, whole_number
 from ._descriptions import Mission, Source
+from ._errors import ParameterError
 from ._studies import Trajectory, columns_of, trajectory_of
+from ._sweeps import Sweep, Vary, entered, of_all, of_each, sweep_of
+from ._wheels import Outside
 
 if TYPE_CHECKING:
     import pandas
@@ -267,9 +270,35 @@ class DrivenMission(_tables.Tabular):
 _ROW = tuple(one.name for one in fields(DrivenMission)[5:-3])
 
 
+@overload
 def mission(
-    mission: Mission | Source, /, *, samples: int | None = None, seed: int = 1, **changes: Any
-) -> DrivenMission:
+    mission: Mission | Source,
+    /,
+    *,
+    vary: Vary,
+    samples: int | None = ...,
+    seed: int = ...,
+    outside: Outside = ...,
+    **changes: Any,
+) -> Sweep: ...
+
+
+@overload
+def mission(
+    mission: Mission | Source, /, *, samples: int | None = ..., seed: int = ..., **changes: Any
+) -> DrivenMission: ...
+
+
+def mission(
+    mission: Mission | Source,
+    /,
+    *,
+    samples: int | None = None,
+    seed: int = 1,
+    vary: Vary | None = None,
+    outside: Outside = "raise",
+    **changes: Any,
+) -> DrivenMission | Sweep:
     """Drives a rover through the legs of a mission, to its end or to the limit that stops it.
 
     Results are reproducible bit for bit, here and in the program's ``grouser mission``.
@@ -284,6 +313,11 @@ def mission(
         is driven as it is written, and no more.
     seed : int
         Seed of the samples: the same seed gives the same soils and models.
+    vary, outside
+        As for `heading`, by the keys of the mission, such as ``leg.0.drive_m``: only the ends of
+        missions and, as ``legs``, of their legs are kept. One that cannot be computed has a
+        `Sweep.status`, and the others continue. With ``samples`` each entry is computed by itself, with
+        its risk.
     **changes
         Keys of the mission with other values: ``slope_deg=15.0``, ``stop={…}``.
 
@@ -291,6 +325,7 @@ def mission(
     -------
     DrivenMission
         The mission; of several alternatives the first, with all of them as its ``alternatives``.
+        With ``vary`` a `Sweep`, with an axis of alternatives if there are some.
 
     Raises
     ------
@@ -326,6 +361,8 @@ def mission(
     >>> bool(0.5 < drive.risk["probability_completed"] <= 1.0), len(drive.advice["verdict"])
     (True, 1)
     """
+    if vary is not None:
+        return _sweep(mission, changes, vary, outside, samples, seed)
     if isinstance(mission, Mission) and not changes:
         plan = mission
     else:
@@ -338,6 +375,40 @@ def mission(
     ways = [_driven(plan, way, Alternatives({})) for way in found]
     named = {way.alternative: way for way in ways if way.alternative}
     return _driven(plan, found[0], Alternatives(named)) if named else ways[0]
+
+
+def _sweep(
+    source: Mission | Source,
+    changes: dict[str, Any],
+    vary: Vary,
+    outside: Outside,
+    samples: int | None,
+    seed: int,
+) -> Sweep:
+    """Missions over what varies: with samples one after the other, with the risk of each."""
+    is_sampled = samples is not None
+    asked = entered(Mission, source, changes, vary, outside, by_document=is_sampled)
+    plans = (it.to_dict() for it in asked.documents)
+    ways = {tuple(way["name"] for way in plan.get("alternative", ())) for plan in plans}
+    if len(ways) > 1:
+        raise ParameterError("vary: the missions differ in their alternatives", "vary")
+    names = next(iter(ways), ())
+
+    def ends(plan: Mission) -> dict[str, Any]:
+        found = mission(plan, samples=samples, seed=seed)
+        each = list(found.alternatives.values()) or [found]
+        rows = [{**way._row(), **way.risk} for way in each]
+        return {name: [row.get(name) for row in rows] for name in rows[0]}
+
+    found = of_each(asked, ends) if is_sampled else of_all(asked, _core.mission_sweep)
+    axes: dict[str, Any] = {"alternative": names} if names else {}
+    if not names:
+        found[0][0][0].pop("alternative", None)
+    numbers = _tables.COLUMNS["mission"]
+    if is_sampled:
+        return sweep_of(asked, found, axes, "mission", numbers)
+    legs = {**axes, "leg": np.arange(1, 1 + found[0][1][1] // max(len(names), 1))}
+    return sweep_of(asked, found, axes, "mission", numbers, ("legs", legs))
 
 
 def _driven(plan: Mission, found: Mapping[str, Any], alternatives: Alternatives) -> DrivenMission:

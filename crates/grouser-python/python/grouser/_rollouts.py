@@ -233,17 +233,16 @@ def rollout(
         {**varied(vary, taken=both), **arguments}, {"scenarios": places, "soil": soil_places}
     )
     index, soil_index = asked.places
-    found = _core.rollout(
+    entries = (
         [run._document for run in runs],
         index if len(runs) > 1 else None,
         [one._document for one in soils],
         soil_index if len(soils) > 1 else None,
         asked.flat,
         index.size,
-        trajectories,
-        keys_of(gradients),
         outside_is_nan(outside),
     )
+    found = _core.rollout(entries, trajectories, keys_of(gradients))
     shape = asked.shape
     rows = found.pop("gradient", None)
     gradient = None

@@ -21,6 +21,11 @@ if TYPE_CHECKING:
 COLUMNS = {
     kind: tuple(name for name, _, _ in columns) for kind, columns in _core.result_columns().items()
 }
+#: What each of them is.
+DOCS = {
+    kind: {name: doc for name, _, doc in columns}
+    for kind, columns in _core.result_columns().items()
+}
 #: Columns of words in datasets.
 _WORDS = ("danger", "reason", "sentence", "verdict")
 
@@ -45,6 +50,13 @@ def variable(dims: tuple[str, ...], name: str, values: Any) -> tuple[Any, ...]:
     if array.dtype.kind != "f":
         return dims, array
     return dims, array, {"units": unit_of(name)}
+
+
+def without_none(values: NDArray[Any]) -> NDArray[Any]:
+    """Words with nothing in the place of None, which no file format has."""
+    if values.dtype != object:
+        return values
+    return np.array(["" if it is None else str(it) for it in values.ravel()]).reshape(values.shape)
 
 
 def described(
@@ -206,15 +218,19 @@ class Entries(Tabular):
         dims : sequence of str, optional
             Names of the dimensions; by default ``dim_0``, ``dim_1`` …, and ``run`` for runs in a row.
         """
-        count = len(self.shape)
+        names = self._dims(len(self.shape), dims)
+        results = {name: it for name, it in self._results().items() if name not in self.inputs}
+        return with_inputs(dataset(names, results), names, self.inputs)
+
+    def _dims(self, count: int, dims: Sequence[str] | None) -> tuple[str, ...]:
+        """The names of so many dimensions."""
         usual = (self._DIM,) if count == 1 else tuple(f"dim_{k}" for k in range(count))
         names = usual if dims is None else tuple(dims)
         if len(names) != count:
             raise ParameterError(
                 f"dims has {len(names)} names, the fields have {count} dimensions", "dims"
             )
-        results = {name: it for name, it in self._results().items() if name not in self.inputs}
-        return with_inputs(dataset(names, results), names, self.inputs)
+        return names
 
 
 class Band(Tabular):

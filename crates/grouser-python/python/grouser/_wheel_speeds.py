@@ -14,6 +14,8 @@ from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._models import ByModel, each_model
 from ._studies import columns_of, scenario_of
+from ._sweeps import Sweep, Vary, entered, of_all, sweep_of
+from ._wheels import Outside
 
 if TYPE_CHECKING:
     import pandas
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
 
 _RESULTS = _tables.COLUMNS["wheel_speeds"]
 (_OF_WHEEL,) = _tables.COLUMNS["wheel_speeds_of_wheel"]
+#: Slopes [°].
+_SLOPES = (5.0, 10.0, 15.0, 20.0)
 #: Which wheels have a speed in common, on each slope and at the limit: rows of the program's tables.
 _ON_SLOPES = ("alike", "by-side", "by-wheel")
 
@@ -209,6 +213,34 @@ def wheel_speeds(
     scenario: Scenario | Source | None = None,
     /,
     *,
+    vary: Vary,
+    model: Literal["all"],
+    slope_deg: ArrayLike = ...,
+    most_speed_ratio: float = ...,
+    outside: Outside = ...,
+    **changes: Any,
+) -> ByModel[Sweep]: ...
+
+
+@overload
+def wheel_speeds(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
+    vary: Vary,
+    model: str | None = ...,
+    slope_deg: ArrayLike = ...,
+    most_speed_ratio: float = ...,
+    outside: Outside = ...,
+    **changes: Any,
+) -> Sweep: ...
+
+
+@overload
+def wheel_speeds(
+    scenario: Scenario | Source | None = None,
+    /,
+    *,
     model: Literal["all"],
     slope_deg: ArrayLike = ...,
     most_speed_ratio: float = ...,
@@ -233,10 +265,12 @@ def wheel_speeds(
     /,
     *,
     model: str | None = None,
-    slope_deg: ArrayLike = (5.0, 10.0, 15.0, 20.0),
+    slope_deg: ArrayLike = _SLOPES,
     most_speed_ratio: float = 2.0,
+    vary: Vary | None = None,
+    outside: Outside = "raise",
     **changes: Any,
-) -> WheelSpeeds | ByModel[WheelSpeeds]:
+) -> WheelSpeeds | Sweep | ByModel[WheelSpeeds] | ByModel[Sweep]:
     """Speeds of wheels at which a rover crosses slopes straight along the contour, with its yaw
     moment balanced.
 
@@ -257,13 +291,16 @@ def wheel_speeds(
         Slopes [°], 0 to 60.
     most_speed_ratio : float
         The fastest wheel's speed over the mean of all, at most [-]; above 1.
+    vary, outside
+        As for a nominal `heading`: the axes of the `Sweep` are ``slope_deg`` and ``wheels``, and its
+        ``limits`` has those of `WheelSpeeds.limits`.
     **changes
         Keys of the scenario with other values.
 
     Returns
     -------
     WheelSpeeds
-        Or `ByModel` of them, for all models.
+        With ``vary`` a `Sweep`; for all models `ByModel` of either.
 
     Raises
     ------
@@ -297,10 +334,24 @@ def wheel_speeds(
     """
     if model == "all":
         settings: dict[str, Any] = {"slope_deg": slope_deg, "most_speed_ratio": most_speed_ratio}
+        settings |= {"vary": vary, "outside": outside}
         return each_model(lambda name: wheel_speeds(scenario, model=name, **settings, **changes))
     changes = changes if model is None else {**changes, "model": model}
-    slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
-    most = number("most_speed_ratio", most_speed_ratio)
+    slopes, most = line("slope_deg", slope_deg), number("most_speed_ratio", most_speed_ratio)
+    if vary is not None:
+        taken = ("slope_deg",) if slope_deg is not _SLOPES else ()
+        asked = entered(Scenario, scenario, changes, vary, outside, taken=taken)
+        swept = of_all(asked, _core.wheel_speeds_sweep, slopes, most)
+        of_slopes: dict[str, Any] = {} if "slope_deg" in asked.flat else {"slope_deg": slopes}
+        return sweep_of(
+            asked,
+            swept,
+            {**of_slopes, "wheels": _ON_SLOPES},
+            "wheel_speeds",
+            _RESULTS,
+            ("limits", {"wheels": (*_ON_SLOPES, "uphill-reversed")}),
+        )
+    run = scenario_of(scenario, changes)
     found, limits, names = _core.wheel_speeds(run._document, slopes, most)
     shape = (len(slopes), len(_ON_SLOPES))
     of_wheel = _speeds_of(limits, names)

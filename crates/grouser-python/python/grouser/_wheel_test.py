@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
-from ._arrays import Floats, line, number, whole_number
-from ._descriptions import Soil, Source, Wheel
+from ._arrays import Floats, line, number, varied, whole_number
+from ._cells import cells_of
+from ._descriptions import Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
 from ._models import ByModel, each_model
 from ._studies import soil_of
-from ._wheels import Settled, setting, settle
+from ._sweeps import Sweep, Vary
+from ._wheels import Outside, Settled, Soils, Wheels, setting, settle
 
 if TYPE_CHECKING:
     import pandas
@@ -252,6 +254,47 @@ class SimulatedWheelTest(_tables.Tabular):
         return f"<SimulatedWheelTest of {shape} loads, angles, ratios, trials>"
 
 
+#: What a wheel test is, as it is asked for.
+_AnyTest = Union[
+    WheelTest,
+    SimulatedWheelTest,
+    Sweep,
+    ByModel[WheelTest],
+    ByModel[SimulatedWheelTest],
+    ByModel[Sweep],
+]
+
+
+@overload
+def wheel_test(  # type: ignore[overload-overlap]
+    soil: Soils = ...,
+    wheel: Wheels = ...,
+    *,
+    load_n: ArrayLike,
+    slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = ...,
+    gravity_m_s2: float = ...,
+    model: Literal["all"],
+    vary: Vary,
+    outside: Outside = ...,
+) -> ByModel[Sweep]: ...
+
+
+@overload
+def wheel_test(
+    soil: Soils = ...,
+    wheel: Wheels = ...,
+    *,
+    load_n: ArrayLike,
+    slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = ...,
+    gravity_m_s2: float = ...,
+    model: str | None = ...,
+    vary: Vary,
+    outside: Outside = ...,
+) -> Sweep: ...
+
+
 @overload
 def wheel_test(  # type: ignore[overload-overlap]
     soil: Soil | Source = ...,
@@ -329,8 +372,8 @@ def wheel_test(
 
 
 def wheel_test(
-    soil: Soil | Source = "toyoura",
-    wheel: Wheel | Source = "hakuto",
+    soil: Soils = "toyoura",
+    wheel: Wheels = "hakuto",
     *,
     load_n: ArrayLike,
     slip_ratio: ArrayLike,
@@ -344,14 +387,16 @@ def wheel_test(
     uncertainty: bool = False,
     samples: int = 200,
     seed: int = 1,
-) -> WheelTest | SimulatedWheelTest | ByModel[WheelTest] | ByModel[SimulatedWheelTest]:
+    vary: Vary | None = None,
+    outside: Outside = "raise",
+) -> _AnyTest:
     """Simulates a wheel on a test stand: every load with every slip angle and every slip ratio
     ([FourWheel], section 4 and Fig. 7).
 
     Parameters
     ----------
     soil, wheel, gravity_m_s2
-        As for `settle`; one soil.
+        As for `settle`; one soil and wheel, but with ``vary``.
     model : str, optional
         The wheel–soil model, or ``"all"`` for the results of each; by default the soil's own.
     load_n : array_like, shape (loads,)
@@ -373,11 +418,15 @@ def wheel_test(
     seed : int
         Seed of the noise or of the samples: the same seed gives the same readings, or the same
         soils and models.
+    vary, outside
+        As for `settle`: what varies broadcasts with ``soil`` and ``wheel``, and loads, slip angles and
+        slip ratios are the axes of the `Sweep`. Not with ``trials`` and ``uncertainty``.
 
     Returns
     -------
     WheelTest
-        Or `SimulatedWheelTest`, with ``trials``; or `ByModel` of them, for all models.
+        Or `SimulatedWheelTest`, with ``trials``, or `Sweep`, with ``vary``; or `ByModel` of them, for
+        all models.
 
     Raises
     ------
@@ -404,19 +453,25 @@ def wheel_test(
             "uncertainty": uncertainty,
             "samples": samples,
             "seed": seed,
+            "vary": vary,
+            "outside": outside,
         }
         found_by: Any = each_model(lambda name: wheel_test(soil, wheel, model=name, **settings))
         return found_by  # type: ignore[no-any-return]
     loads, angles = line("load_n", load_n), line("slip_angle_deg", slip_angle_deg)
     ratios = line("slip_ratio", slip_ratio)
+    if vary is not None:
+        if trials is not None or uncertainty:
+            name = "uncertainty" if trials is None else "trials"
+            raise ParameterError(f"vary does not go with {name}: leave one of them out", "vary")
+        axes = dict(zip(_COORDS, (loads, angles, ratios)))
+        return _sweep(soil, wheel, axes, gravity_m_s2, model, vary, outside)
     if trials is not None and uncertainty:
         raise ParameterError("uncertainty is not known of readings with noise", "uncertainty")
     if trials is not None:
         deviations = {"noise_n": noise_n, "noise_mm": noise_mm, "noise_nm": noise_nm}
         noise = [number(name, value) for name, value in deviations.items()]
-        wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
-        stand = setting(gravity_m_s2, model)
-        documents = (soil_of(soil)._document, wheel._document, stand._document)
+        documents = _documents(soil, wheel, setting(gravity_m_s2, model))
         count = whole_number("trials", trials, most=2**53)
         found = _core.simulated_wheel_test(
             *documents, loads, angles, ratios, count, noise, whole_number("seed", seed)
@@ -439,9 +494,7 @@ def wheel_test(
     )
     band = None
     if uncertainty:
-        wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
-        stand = setting(gravity_m_s2, model)
-        documents = (soil_of(soil)._document, wheel._document, stand._document)
+        documents = _documents(soil, wheel, setting(gravity_m_s2, model))
         drawn = whole_number("seed", seed), whole_number("samples", samples, most=2**32 - 1)
         found = _core.wheel_test_band(*documents, loads, angles, ratios, *drawn)
         sizes = (len(loads), len(angles), len(ratios))
@@ -451,3 +504,48 @@ def wheel_test(
     return WheelTest(
         load_n=loads, slip_angle_deg=angles, slip_ratio=ratios, wheels=wheels, band=band
     )
+
+
+def _documents(
+    soil: Any, wheel: Any, stand: Scenario
+) -> tuple[_core.Document, _core.Document, _core.Document]:
+    """Soil, wheel and setting, as the native half takes them."""
+    one = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
+    return soil_of(soil)._document, one._document, stand._document
+
+
+def _sweep(
+    soil: Soils,
+    wheel: Wheels,
+    axes: dict[str, Floats],
+    gravity_m_s2: float,
+    model: str | None,
+    vary: Vary,
+    outside: Outside,
+) -> Sweep:
+    """Wheel tests over what varies, whose axes stand before those of the test."""
+
+    def ahead(values: Any) -> Any:
+        cells = cells_of(values)
+        whole: Any = np.asarray(values) if cells is None else cells
+        return whole[..., None, None, None]
+
+    several = (list, tuple, np.ndarray)
+    stand: list[Any] = [ahead(it) if isinstance(it, several) else it for it in (soil, wheel)]
+    loads, angles, ratios = axes.values()
+    varying = {name: ahead(it) for name, it in varied(vary, taken=axes).items()}
+    wheels = settle(
+        *stand,
+        load_n=loads[:, None, None],
+        slip_angle_deg=angles[:, None],
+        slip_ratio=ratios,
+        gravity_m_s2=varying.pop("gravity_m_s2", gravity_m_s2),
+        model=model,
+        vary=varying,
+        outside=outside,
+    )
+    inputs = {name: it for name, it in wheels.inputs.items() if name not in axes}
+    inputs = {name: it[..., 0, 0, 0] if it.ndim else it for name, it in inputs.items()}
+    columns = {name: it for name, it in wheels._results().items() if name not in axes}
+    columns["status"] = wheels.messages
+    return Sweep(columns, axes, inputs, wheels.shape[:-3], {}, _tables.DOCS["wheel"])

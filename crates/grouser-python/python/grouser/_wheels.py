@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import lru_cache
-from typing import Any, Literal, Union
+from typing import Any, Literal, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _shown, _tables
 from ._arrays import Broadcast, Floats, broadcast, number, varied
+from ._cells import cells_of, documents_of, labels_of, numbered, whole_cells
 from ._descriptions import Rover, Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
 from ._gradients import Gradient, Keys, keys_of, of_rows
@@ -19,6 +20,10 @@ from ._validity import flags_of
 
 #: One soil, or a sequence that broadcasts with the other arguments.
 Soils = Union[Soil, Source, Sequence[Any], NDArray[np.object_]]
+
+#: One wheel, or a sequence that does.
+Wheels = Union[Wheel, Source, Sequence[Any], NDArray[np.object_]]
+_Thing = TypeVar("_Thing", Soil, Wheel)
 
 #: `Settled.status` of a wheel that the soil carries.
 CARRIED = 0
@@ -182,14 +187,14 @@ class Settled(WheelForces):
 
 def settle(
     soil: Soils,
-    wheel: Wheel | Source,
+    wheel: Wheels,
     *,
     load_n: ArrayLike,
     slip_ratio: ArrayLike,
     slip_angle_deg: ArrayLike = 0.0,
     gravity_m_s2: ArrayLike = _core.EARTH_GRAVITY,
     model: str | None = None,
-    vary: Mapping[str, ArrayLike] | None = None,
+    vary: Mapping[str, Any] | None = None,
     gradients: Keys | None = None,
     outside: Outside = "raise",
 ) -> Settled:
@@ -205,8 +210,8 @@ def settle(
     ----------
     soil : Soil, name, path, mapping, or a sequence of them
         A sequence broadcasts as an array of its shape does.
-    wheel : Wheel, name, path or mapping
-        The wheel.
+    wheel : Wheel, name, path, mapping, or a sequence of them
+        The wheel, or as many.
     load_n : array_like
         Load on the wheel [N], 0 to 1e5.
     slip_ratio : array_like
@@ -219,8 +224,8 @@ def settle(
         The wheel–soil model: ``ishigami``, ``bekker``, ``small-wheel`` or ``rft``; by default each
         soil's own.
     vary : mapping of str to array_like, optional
-        Numbers of the soil or the wheel, by their keys, as ``soil.cohesion_kpa`` or
-        ``wheel.radius_m``: they broadcast with the other arguments.
+        Numbers and words of the soil or the wheel, by their keys, as ``soil.cohesion_kpa``,
+        ``wheel.radius_m`` or ``wheel.grousers.count``: they broadcast with the other arguments.
     gradients : str or sequence of str, optional
         Keys of numbers by which all results are differentiated, such as ``soil.cohesion_kpa``,
         ``wheel.radius_m``, ``gravity_m_s2``, ``load_n``, ``slip_ratio`` and ``slip_angle_deg``, or
@@ -274,14 +279,14 @@ def settle(
 
 def wheel_forces(
     soil: Soils,
-    wheel: Wheel | Source,
+    wheel: Wheels,
     *,
     sinkage_mm: ArrayLike,
     slip_ratio: ArrayLike,
     slip_angle_deg: ArrayLike = 0.0,
     gravity_m_s2: ArrayLike = _core.EARTH_GRAVITY,
     model: str | None = None,
-    vary: Mapping[str, ArrayLike] | None = None,
+    vary: Mapping[str, Any] | None = None,
     outside: Outside = "raise",
 ) -> WheelForces:
     """Computes the forces of the soil on wheels at given sinkages.
@@ -328,40 +333,68 @@ class _Stand:
     def __init__(
         self,
         soil: Soils,
-        wheel: Wheel | Source,
+        wheel: Wheels,
         gravity_m_s2: ArrayLike,
         model: str | None,
-        vary: Mapping[str, ArrayLike] | None,
+        vary: Mapping[str, Any] | None,
         outside: Outside,
     ) -> None:
         self._outside_is_nan = outside_is_nan(outside)
-        wheel = wheel if isinstance(wheel, Wheel) else Wheel(wheel)
         self._vary = varied(vary, taken=("gravity_m_s2",))
         gravity = gravity_m_s2
         if np.ndim(gravity_m_s2) > 0 or self._outside_is_nan:
             self._vary["gravity_m_s2"], gravity = gravity_m_s2, _core.EARTH_GRAVITY
-        self._soils, self._places = soils_of(soil)
-        soils = [one._document for one in self._soils]
-        self._documents = (soils, wheel._document, setting(gravity, model)._document)
+        soils, wheels = soils_of(soil), _things_of(Wheel, "hakuto", wheel)
+        self._names = {**names_of(*soils), **names_of(*wheels, "wheel")}
+        self._soils, soil_places = self._with_words("soil.", *soils)
+        self._wheels, wheel_places = self._with_words("wheel.", *wheels)
+        self._places = {"soil": soil_places, "wheel": wheel_places}
+        self._setting = setting(gravity, model)._document
+
+    def _with_words(
+        self, prefix: str, things: list[_Thing], places: NDArray[np.int64]
+    ) -> tuple[list[_Thing], NDArray[np.int64]]:
+        """Soils or wheels with what varies of them that is no number, taken from ``vary``."""
+        cells = {}
+        for name in [name for name in self._vary if name.startswith(prefix)]:
+            values, key = self._vary[name], name[len(prefix) :]
+            found = cells_of(values)
+            if found is None:
+                found = whole_cells(things[0], key, values)
+            if found is not None:
+                cells[key] = found
+                self._names[name] = labels_of(found)
+                del self._vary[name]
+        if not cells:
+            return things, places
+        made, places, _ = documents_of(things, places, cells, outside_is_nan=False)
+        return made, places
 
     def found(self, native: Any, inputs: Mapping[str, ArrayLike]) -> dict[str, Any]:
         """Results and inputs by name, as arrays of the common shape."""
-        asked, index = self._asked(inputs)
+        asked, indices = self._asked(inputs)
         vary = {name: asked.flat[name] for name in self._vary}
         numbers = (asked.flat[name] for name in inputs)
-        rows, names = native(*self._documents, *numbers, index, vary, self._outside_is_nan)
+        soils = [it._document for it in self._soils]
+        wheels = [it._document for it in self._wheels]
+        rows, names = native(
+            soils, wheels, self._setting, *numbers, *indices, vary, self._outside_is_nan
+        )
         found = dict(zip(names, rows.reshape(len(names), *asked.shape)))
         found |= {name: asked.flat[name].reshape(asked.shape) for name in inputs}
-        return {**found, "inputs": self._inputs(asked)}
+        return {**found, "inputs": {**self._names, **asked.given}}
 
     def gradient(self, inputs: Mapping[str, ArrayLike], keys: Sequence[str]) -> Gradient:
         """The derivatives of settled wheels by some keys."""
-        asked, index = self._asked(inputs)
+        if len(self._wheels) > 1:
+            raise ParameterError("gradients go with one wheel, wheel is several", "gradients")
+        asked, indices = self._asked(inputs)
         vary = {name: asked.flat[name] for name in self._vary}
         numbers = (asked.flat[name] for name in inputs)
         native: Any = _core.settle_gradients
+        soils, wheel = [it._document for it in self._soils], self._wheels[0]._document
         rows, one_sided, keys, names = native(
-            *self._documents, *numbers, index, vary, keys, self._outside_is_nan
+            soils, wheel, self._setting, *numbers, indices[0], vary, keys, self._outside_is_nan
         )
         return of_rows(rows, one_sided, keys, names, asked.shape)
 
@@ -372,12 +405,11 @@ class _Stand:
         missing = np.logical_or.reduce([np.isnan(it) for it in numbers])
         return np.broadcast_to(missing.ravel(), int(np.prod(asked.shape))).reshape(asked.shape)
 
-    def _asked(self, inputs: Mapping[str, ArrayLike]) -> tuple[Broadcast, Any]:
-        asked = broadcast({**self._vary, **inputs}, {"soil": self._places})
-        return asked, asked.places[0] if len(self._soils) > 1 else None
-
-    def _inputs(self, asked: Broadcast) -> dict[str, NDArray[Any]]:
-        return {**names_of(self._soils, self._places), **asked.given}
+    def _asked(self, inputs: Mapping[str, ArrayLike]) -> tuple[Broadcast, list[Any]]:
+        asked = broadcast({**self._vary, **inputs}, self._places)
+        counts = (len(self._soils), len(self._wheels))
+        indices = [it if count > 1 else None for it, count in zip(asked.places, counts)]
+        return asked, indices
 
 
 def outside_is_nan(outside: Outside) -> bool:
@@ -429,14 +461,14 @@ def range_of(
     return _core.range_of(description._document, key)
 
 
-def names_of(soils: Sequence[Soil], places: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
+def names_of(
+    soils: Sequence[Soil | Wheel], places: NDArray[np.int64], kind: str = "soil"
+) -> dict[str, NDArray[Any]]:
     """The column of the soils' names, if there are several; soils of one name are numbered."""
     if places.ndim == 0:
         return {}
-    names = [str(soil.name) for soil in soils]
-    twice = {name for name in names if names.count(name) > 1}
-    shown = [f"{name} ({k})" if name in twice else name for k, name in enumerate(names)]
-    return {"soil": np.array(shown, dtype=object)[places]}
+    names = numbered([str(soil.name) for soil in soils])
+    return {kind: np.array(names, dtype=object)[places]}
 
 
 def setting(gravity_m_s2: Any, model: str | None) -> Scenario:
@@ -456,30 +488,35 @@ def _setting(gravity_m_s2: float, model: str | None) -> Scenario:
 
 def soils_of(soil: Soils) -> tuple[list[Soil], NDArray[np.int64]]:
     """The different soils, and which of them each wheel has."""
-    is_one = isinstance(soil, (Soil, str)) or hasattr(soil, "__fspath__") or hasattr(soil, "keys")
-    if is_one:
-        given: Any = soil
-        return [given if isinstance(given, Soil) else Soil(given)], np.zeros((), dtype=np.int64)
+    return _things_of(Soil, "toyoura", soil)
+
+
+def _things_of(
+    kind: type[_Thing], usual: str, things: Any
+) -> tuple[list[_Thing], NDArray[np.int64]]:
+    """The different soils or wheels, and which of them each entry has."""
+    is_one = isinstance(things, (kind, str)) or hasattr(things, "__fspath__")
+    if is_one or hasattr(things, "keys"):
+        one = things if isinstance(things, kind) else kind(things)
+        return [one], np.zeros((), dtype=np.int64)
     cells: NDArray[np.object_] = np.empty((), dtype=object)
-    if isinstance(soil, np.ndarray):
-        cells = soil.astype(object)
-    elif isinstance(soil, Sequence):
-        cells = np.empty(len(soil), dtype=object)
-        cells[:] = soil
+    if isinstance(things, np.ndarray):
+        cells = things.astype(object)
+    elif isinstance(things, Sequence):
+        cells = np.empty(len(things), dtype=object)
+        cells[:] = things
     else:
-        cells[()] = soil
-    different: dict[Soil, int] = {}
-    made: dict[Any, Soil] = {}
+        cells[()] = things
+    different: dict[_Thing, int] = {}
+    made: dict[Any, _Thing] = {}
     places = np.empty(cells.shape, dtype=np.int64)
     for place, cell in np.ndenumerate(cells):
-        if isinstance(cell, Soil):
+        if isinstance(cell, kind):
             one = cell
         elif isinstance(cell, str):
-            one = made.setdefault(cell, made.get(cell) or Soil(cell))
+            one = made.setdefault(cell, made.get(cell) or kind(cell))
         else:
-            one = Soil(cell)
+            one = kind(cell)
         places[place] = different.setdefault(one, len(different))
-    if not different:
-        # An empty sequence is for no wheels, but an array of no wheels needs a soil.
-        return [Soil("toyoura")], places
-    return list(different), places
+    # An empty sequence is for no entries, but an array of none needs a soil.
+    return list(different) or [kind(usual)], places

@@ -1,0 +1,136 @@
+"""What differs from entry to entry and is no number: documents, words, whole numbers. Each combination
+that occurs is read once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Hashable, Mapping, Sequence
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._descriptions import _Description
+from ._errors import DocumentError, ParameterError
+
+_Document = TypeVar("_Document", bound=_Description)
+
+#: Things without a number, as an array.
+Cells = NDArray[np.object_]
+
+
+def cells_of(values: Any) -> Cells | None:
+    """Things as an array; None for numbers."""
+    if isinstance(values, np.ndarray):
+        return values.astype(object) if values.dtype.kind in "OUb" else None
+    if not _is_thing(values):
+        return None
+    return np.array(values, dtype=object)
+
+
+def _is_thing(values: Any) -> bool:
+    if isinstance(values, (list, tuple)):
+        return any(_is_thing(it) for it in values)
+    return isinstance(values, (str, bool, Mapping, os.PathLike, _Description))
+
+
+def whole_cells(description: _Description, key: str, values: Any) -> Cells | None:
+    """Whole numbers as an array, where the document has one under the key; else None."""
+    found: Any = description._items
+    for part in key.split("."):
+        found = found.get(part) if isinstance(found, dict) else None
+    if not isinstance(found, int) or isinstance(found, bool):
+        return None
+    return number_cells(np.asarray(values))
+
+
+def number_cells(values: Any) -> Cells:
+    """Numbers as things: each by itself, whole ones as such."""
+    cells = np.empty(np.shape(values), dtype=object)
+    for place, it in np.ndenumerate(np.asarray(values)):
+        cells[place] = int(it) if float(it).is_integer() else float(it)
+    return cells
+
+
+def labels_of(cells: Cells) -> NDArray[Any]:
+    """Things as a column: descriptions by their names, of which equal ones are numbered."""
+    different, places = _different(cells)
+    names = [getattr(it, "name") if isinstance(it, _Description) else it for it in different]
+    if all(isinstance(it, (int, float)) and not isinstance(it, bool) for it in names):
+        return np.array(names or [0.0])[places]
+    return np.array(numbered([str(it) for it in names]), dtype=object)[places]
+
+
+def numbered(names: Sequence[str]) -> list[str]:
+    """Names, those that occur twice with their places."""
+    twice = {name for name in names if names.count(name) > 1}
+    return [f"{name} ({k})" if name in twice else name for k, name in enumerate(names)]
+
+
+def _different(cells: Cells) -> tuple[list[Any], NDArray[np.int64]]:
+    """Different things, and which of them each entry has."""
+    known: dict[Hashable, int] = {}
+    different: list[Any] = []
+    places = np.empty(cells.shape, dtype=np.int64)
+    for place, it in np.ndenumerate(cells):
+        key = id(it) if isinstance(it, Mapping) else (type(it), it)
+        places[place] = known.setdefault(key, len(known))
+        if len(known) > len(different):
+            different.append(it)
+    return different, places
+
+
+def documents_of(
+    bases: Sequence[_Document],
+    base_of: NDArray[np.int64],
+    cells: Mapping[str, Cells],
+    outside_is_nan: bool,
+) -> tuple[list[_Document], NDArray[np.int64], dict[int, str]]:
+    """The different documents of some entries, and which of them each has; and why some are none.
+
+    Parameters
+    ----------
+    bases, base_of
+        Documents whose keys are exchanged, and which of them each entry has.
+    cells
+        What stands under keys, at shapes that broadcast with that.
+    outside_is_nan
+        Whether what is not allowed is no error.
+    """
+    each = [(list(bases), base_of), *(_different(it) for it in cells.values())]
+    whole = np.broadcast_arrays(*(places for _, places in each))
+    rows = np.stack([it.ravel() for it in whole], axis=-1)
+    different, index = np.unique(rows, axis=0, return_inverse=True)
+    made: list[_Document] = []
+    problems: dict[int, str] = {}
+    for number, row in enumerate(different):
+        things = [things[place] for (things, _), place in zip(each, row)]
+        keys = dict(zip(cells, things[1:]))
+        missing = [name for name, it in keys.items() if isinstance(it, float) and np.isnan(it)]
+        made.append(things[0])
+        if missing:
+            problems[number] = f"{missing[0]} is NaN"
+            continue
+        try:
+            made[-1] = _with(things[0], keys)
+        except (ParameterError, DocumentError) as error:
+            if not outside_is_nan:
+                raise
+            problems[number] = str(error)
+    return made, index.reshape(whole[0].shape).astype(np.int64), problems
+
+
+def _with(document: _Document, keys: Mapping[str, Any]) -> _Document:
+    """A document with other things under some keys: parts as a whole first, then what is in them."""
+    parts = {name: it for name, it in keys.items() if "." not in name}
+    inner: dict[str, Any] = {}
+    for name, it in keys.items():
+        *tables, key = name.split(".")
+        table = inner
+        for part in tables:
+            table = table.setdefault(part, {})
+        if tables:
+            table[key] = it
+    for changes in (parts, inner):
+        document = type(document)(document, **changes) if changes else document
+    return document

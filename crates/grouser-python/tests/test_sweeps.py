@@ -1,0 +1,308 @@
+"""Studies over what varies: those of one document after the other, in the shape that was asked for."""
+
+from __future__ import annotations
+
+import pickle
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import grouser as gr
+
+NAN = float("nan")
+SLOPES = [5.0, 12.0, 25.0]
+MOTOR = {
+    "resistance_ohm": 10.0,
+    "torque_constant_nm_a": 0.01,
+    "gear_ratio": 250.0,
+    "gear_efficiency": 0.6,
+}
+LEGS = [{"drive_m": 0.3, "yaw_deg": 5.0}, {"turn_deg": 10.0}]
+WAYS = [{"name": "short", "leg": LEGS[:1]}, {"name": "long", "leg": LEGS}]
+
+
+def check_equal(found: Any, entry: Any, one: Mapping[str, Any], names: tuple[str, ...] = ()) -> None:
+    """An entry of a sweep has the bits of a table that a study of it alone has."""
+    names = names or tuple(name for name in found.columns if name in one)
+    assert len(names) > 5
+    for name in names:
+        cells, own = np.ravel(found[name][entry]), np.ravel(np.asarray(one[name]))
+        if own.dtype.kind in "fiu":
+            np.testing.assert_array_equal(cells, own.astype(float), name)
+        else:
+            assert cells.tolist() == own.tolist(), name
+
+
+def test_headings_are_those_of_each_scenario() -> None:
+    angles, masses = [34.0, 38.0], [5.24, 6.0]
+    vary = {"soil.friction_angle_deg": np.reshape(angles, (2, 1)), "rover.body.mass_kg": masses}
+    found = gr.heading(rover="hakuto", slope_deg=SLOPES, vary=vary, nominal=True)
+    assert found.shape == (2, 2, 3) and found.entries == (2, 2)
+    for i, angle in enumerate(angles):
+        for j, mass in enumerate(masses):
+            soil = gr.Soil("toyoura", friction_angle_deg=angle)
+            rover = gr.Rover("hakuto", body={"mass_kg": mass})
+            one = gr.heading(rover=rover, soil=soil, slope_deg=SLOPES, nominal=True)
+            check_equal(found, (i, j), one.columns)
+            assert set(found.limit_slope_deg[i, j]) == {one.limit_slope_deg}
+            assert set(found.limited_by[i, j]) == {one.limited_by}
+    # A slope for each entry.
+    own = gr.heading(vary={**vary, "slope_deg": [5.0, 25.0]}, rover="hakuto", nominal=True)
+    np.testing.assert_array_equal(own.yaw_deg[:, 0], found.yaw_deg[:, 0, 0])
+    np.testing.assert_array_equal(own.yaw_deg[:, 1], found.yaw_deg[:, 1, 2])
+
+
+def test_soils_rovers_words_and_whole_numbers() -> None:
+    soils, rovers = ["toyoura", "lunar-nominal"], ["hakuto-steered", gr.Rover("hakuto-rockers")]
+    found = gr.heading(
+        rover=np.array(rovers, dtype=object)[:, None],
+        soil=soils,
+        slope_deg=[10.0],
+        vary={"model": np.array(["ishigami", "bekker"])[:, None, None]},
+        nominal=True,
+    )
+    assert found.shape == (2, 2, 2, 1)
+    for i, model in enumerate(["ishigami", "bekker"]):
+        for j, rover in enumerate(rovers):
+            for k, soil in enumerate(soils):
+                keys: dict[str, Any] = {"rover": rover, "soil": soil, "model": model}
+                one = gr.heading(slope_deg=[10.0], nominal=True, **keys)
+                check_equal(found, (i, j, k), one.columns)
+    assert found.inputs["rover"][:, 0].tolist() == ["hakuto-steered", gr.Rover(rovers[1]).name]
+    assert found.inputs["soil"].tolist() == [gr.Soil(it).name for it in soils]
+    steered: dict[str, Any] = {"rover": "hakuto-steered", "steering": "crab", "slope_deg": [10.0]}
+    crab = gr.heading(soil=soils, vary={}, **steered)
+    for k, soil in enumerate(soils):
+        check_equal(crab, k, gr.heading(soil=soil, **steered).columns)
+    # A whole number and a word of a wheel and a soil.
+    stand: dict[str, Any] = {"load_n": [10.0, 20.0], "slip_ratio": [0.1, 0.3], "slip_angle_deg": [9.0]}
+    words = {"wheel.grousers.count": [8, 24], "soil.bulldozing.law": [["sine"], ["none"]]}
+    test = gr.wheel_test(vary=words, **stand)
+    assert test.shape == (2, 2, 2, 1, 2)
+    for i, law in enumerate(["sine", "none"]):
+        for k, count in enumerate([8, 24]):
+            soil = gr.Soil("toyoura", bulldozing={"law": law})
+            wheel = gr.Wheel("hakuto", grousers={"count": count})
+            check_equal(test, (i, k), gr.wheel_test(soil, wheel, **stand)._table())
+    assert (test.side_force_n[0] != test.side_force_n[1]).any()
+    counts = {"rover.wheel_unit.wheel.grousers.count": [8, 24]}
+    few = gr.heading(slope_deg=[10.0], vary=counts, nominal=True)
+    wheel_unit = {"wheel": {"grousers": {"count": 8}}}
+    check_equal(few, 0, gr.heading(
+        rover=gr.Rover("hakuto", wheel_unit=wheel_unit), slope_deg=[10.0], nominal=True
+    ).columns)
+    assert few.inputs["rover.wheel_unit.wheel.grousers.count"].dtype.kind == "i"
+
+
+def test_maps_of_headings() -> None:
+    asked: dict[str, Any] = {"slope_deg": [5.0, 30.0], "course_deg": [-30.0, 0.0, 30.0]}
+    vary = {"soil.cohesion_kpa": [0.2, 0.9], "gravity_m_s2": [[9.81], [1.62]]}
+    found = gr.heading_map(vary=vary, **asked)
+    assert found.shape == (2, 2, 3, 2) and tuple(found.axes) == ("course_deg", "slope_deg")
+    for i, gravity in enumerate([9.81, 1.62]):
+        for j, cohesion in enumerate([0.2, 0.9]):
+            soil = gr.Soil("toyoura", cohesion_kpa=cohesion)
+            one = gr.heading_map(soil=soil, gravity_m_s2=gravity, **asked)
+            check_equal(found, (i, j), one._table())
+    on_soils = gr.heading_map(soil=["toyoura", "dry-sand"], vary={}, **asked)
+    together = gr.heading_map(soil=["toyoura", "dry-sand"], **asked)
+    np.testing.assert_array_equal(on_soils.slip_ratio, together.slip_ratio)
+    sampled: dict[str, Any] = {**asked, "uncertainty": True, "samples": 4}
+    believed = gr.heading_map(soil="toyoura-uncertain", vary={"gravity_m_s2": [9.81, 1.62]}, **sampled)
+    one = gr.heading_map(soil="toyoura-uncertain", gravity_m_s2=1.62, **sampled)
+    check_equal(believed, 1, one._table())
+
+
+def test_speeds_of_wheels() -> None:
+    motored = gr.Rover("hakuto", motor=MOTOR)
+    asked: dict[str, Any] = {"slope_deg": [5.0, 40.0], "most_speed_ratio": 1.3}
+    found = gr.wheel_speeds(rover=[motored, "hakuto-steered"], vary={}, **asked)
+    for k, rover in enumerate([motored, "hakuto-steered"]):
+        one = gr.wheel_speeds(rover=rover, **asked)
+        check_equal(found, k, one._table())
+        check_equal(found.limits, k, one.limits._table())
+    assert found.shape == (2, 2, 3) and found.limits.shape == (2, 4)
+    data = found.to_xarray(["rover"]).sel(slope_deg=5.0, wheels="by-side")
+    assert data["front-left.speed_ratio"].dims == ("rover",)
+
+
+@pytest.mark.parametrize("alternatives", [False, True])
+def test_missions_and_their_legs(alternatives: bool) -> None:
+    legs: dict[str, Any] = {"alternative": WAYS} if alternatives else {"leg": LEGS}
+    plan = gr.Mission(slope_deg=4.0, simulation="quasi-steady", **legs)
+    vary = {"soil.cohesion_kpa": [0.2, 0.9], "slope_deg": [[4.0], [45.0]]}
+    found = gr.mission(plan, vary=vary)
+    for i, slope in enumerate([4.0, 45.0]):
+        for j, cohesion in enumerate([0.2, 0.9]):
+            one = gr.mission(plan, slope_deg=slope, soil={"cohesion_kpa": cohesion})
+            ways = list(one.alternatives.values()) or [one]
+            rows = [way._row() for way in ways]
+            check_equal(found, (i, j), {name: [row[name] for row in rows] for name in rows[0]})
+            for k, way in enumerate(ways):
+                entry = (i, j, k) if alternatives else (i, j)
+                begun = (*entry, slice(len(way.legs)))
+                check_equal(found.legs, begun, way.legs._table())
+                assert np.isnan(found.legs.distance_m[entry][len(way.legs) :]).all()
+    assert found.shape == ((2, 2, 2) if alternatives else (2, 2))
+    assert found.legs.axes["leg"].tolist() == [1, 2]
+    if not alternatives:
+        far = gr.mission(plan, vary={"leg.0.drive_m": [0.1, 0.4]}, soil=["toyoura", "dry-sand"])
+        one = gr.mission(plan, leg=[{"drive_m": 0.4, "yaw_deg": 5.0}, LEGS[1]], soil="dry-sand")
+        check_equal(far, 1, one._row())
+        risky = gr.mission(plan, vary={"slope_deg": [4.0, 8.0]}, samples=4)
+        alone = gr.mission(plan, slope_deg=8.0, samples=4)
+        check_equal(risky, 1, {**alone._row(), **alone.risk})
+
+
+def test_answers_over_samples_are_those_of_each_document() -> None:
+    soils, slopes = ["toyoura", "toyoura-uncertain"], [5.0, 15.0]
+    vary = {"rover.body.mass_kg": [[5.0], [6.0]]}
+    asked: dict[str, Any] = {"slope_deg": slopes, "samples": 4}
+    for study in (gr.heading, gr.card):
+        call: Callable[..., Any] = study
+        found = call(soil=soils, vary=vary, **asked)
+        assert found.shape == (2, 2, 2) and set(found.verdict.ravel()) <= {
+            *("go", "caution", "cannot_tell", "no_go")
+        }
+        for i, mass in enumerate([5.0, 6.0]):
+            for j, soil in enumerate(soils):
+                one = call(soil=soil, rover=gr.Rover("hakuto", body={"mass_kg": mass}), **asked)
+                check_equal(found, (i, j), one.columns)
+
+
+def test_wheel_tests() -> None:
+    wheels = ["hakuto", gr.Wheel("hakuto", radius_m=0.12)]
+    stand: dict[str, Any] = {"load_n": [10.0, 1e5], "slip_ratio": [0.1, 0.3], "slip_angle_deg": [0, 9]}
+    vary = {"soil.cohesion_kpa": [[[0.0]], [[0.7]]], "gravity_m_s2": [[9.81], [1.62]]}
+    found = gr.wheel_test("toyoura", wheels, vary=vary, **stand)
+    assert found.shape == (2, 2, 2, 2, 2, 2)
+    for i, cohesion in enumerate([0.0, 0.7]):
+        for j, gravity in enumerate([9.81, 1.62]):
+            for k, wheel in enumerate(wheels):
+                soil = gr.Soil("toyoura", cohesion_kpa=cohesion)
+                one = gr.wheel_test(soil, wheel, gravity_m_s2=gravity, **stand)
+                check_equal(found, (i, j, k), one._table())
+    assert set(found.status.ravel()) > {"ok"}
+    models = gr.wheel_test(vary={"soil.cohesion_kpa": [0.1, 0.2]}, model="all", **stand)
+    check_equal(models["rft"], 1, gr.wheel_test(
+        gr.Soil("toyoura", cohesion_kpa=0.2), model="rft", **stand
+    )._table())
+    both = gr.settle(["toyoura", "dry-sand"], np.array([wheels]).T, load_n=17.0, slip_ratio=0.2)
+    deep = gr.wheel_forces("toyoura", wheels, sinkage_mm=10.0, slip_ratio=0.2)
+    for k, wheel in enumerate(wheels):
+        one = gr.settle("dry-sand", wheel, load_n=17.0, slip_ratio=0.2)
+        assert both.drawbar_pull_n[k, 1] == one.drawbar_pull_n
+        one = gr.wheel_forces("toyoura", wheel, sinkage_mm=10.0, slip_ratio=0.2)
+        assert deep.drawbar_pull_n[k] == one.drawbar_pull_n
+    with pytest.raises(gr.ParameterError, match="one wheel"):
+        gr.settle("toyoura", wheels, load_n=17.0, slip_ratio=0.2, gradients="load_n")
+
+
+def test_results_are_tables_datasets_and_files(tmp_path: Path) -> None:
+    xarray = pytest.importorskip("xarray")
+    vary = {"soil.friction_angle_deg": [34.0, 120.0], "rover": [["hakuto"], ["hakuto-steered"]]}
+    found = gr.heading(slope_deg=[5.0, 25.0], vary=vary, nominal=True, outside="nan")
+    table = found.to_pandas()
+    assert len(table) == len(found) == 8
+    assert table["slope_deg"].tolist() == [5.0, 25.0] * 4
+    assert table["rover"].iloc[-1] == "hakuto-steered"
+    assert found.to_arrow().num_rows == 8
+    over = found.to_xarray(dims=["rover", "soil.friction_angle_deg"])
+    assert over.yaw_deg.dims == ("rover", "soil.friction_angle_deg", "slope_deg")
+    assert over.yaw_deg.attrs["units"] == "°" and "holds the course" in over.yaw_deg.attrs["long_name"]
+    assert over["soil.friction_angle_deg"].attrs["units"] == "°"
+    limited = over.limited_by.sel({"soil.friction_angle_deg": 120.0})
+    assert set(limited.values.ravel()) == {""}
+    over.to_netcdf(tmp_path / "sweep.nc")
+    with xarray.open_dataset(tmp_path / "sweep.nc") as read:
+        xarray.testing.assert_identical(read.load(), over)
+    again = pickle.loads(pickle.dumps(found))
+    np.testing.assert_array_equal(again.yaw_deg, found.yaw_deg)
+    assert repr(found) == f"<Sweep of shape (2, 2, 2): {(table.status == 'ok').sum()} of 8 ok>"
+    with pytest.raises(AttributeError, match="has no attribute 'yaw'; it has .*yaw_deg"):
+        found.yaw
+
+
+#: Studies with what they need beside `vary`.
+STUDIES: dict[str, tuple[Callable[..., gr.Sweep], dict[str, Any]]] = {
+    "heading": (gr.heading, {"slope_deg": [5.0], "nominal": True}),
+    "heading[samples]": (gr.heading, {"slope_deg": [5.0], "samples": 2}),
+    "heading_map": (gr.heading_map, {"slope_deg": [5.0], "course_deg": [0.0]}),
+    "wheel_speeds": (gr.wheel_speeds, {"slope_deg": [5.0]}),
+    "wheel_test": (gr.wheel_test, {"load_n": 17.0, "slip_ratio": 0.2}),
+    "card": (gr.card, {"slope_deg": [5.0], "samples": 2}),
+    "mission": (
+        lambda **keys: gr.mission({"leg": LEGS[:1], "simulation": "quasi-steady"}, **keys),
+        {},
+    ),
+}
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_what_is_out_of_range_is_an_error_or_left_out(name: str) -> None:
+    call, keys = STUDIES[name]
+    vary = {"soil.friction_angle_deg": [38.0, 120.0, NAN]}
+    with pytest.raises((gr.ParameterError, gr.DocumentError), match="friction_angle_deg.* 120"):
+        call(vary=vary, **keys)
+    found = call(vary=vary, outside="nan", **keys)
+    status = found.status.reshape(3, -1)[:, 0]
+    assert status[0] == "ok" and found.shape[0] == 3
+    assert "range" in status[1] or "120" in status[1]
+    assert "NaN" in status[2]
+    column = found.columns["energy_j" if name == "mission" else "sinkage_mm" if name == "wheel_test" else "yaw_deg"]
+    assert np.isfinite(column.reshape(3, -1)[:, 0]).tolist() == [True, False, False]
+    nothing = call(vary={"soil.friction_angle_deg": [120.0]}, outside="nan", **keys)
+    assert nothing.status.ravel()[0] != "ok" and len(nothing.to_pandas()) == len(nothing)
+    assert call(vary={"soil.friction_angle_deg": []}, **keys).shape[0] == 0
+    assert call(vary={}, **keys).entries == ()
+    with pytest.raises((gr.ParameterError, gr.DocumentError), match="frictn"):
+        call(vary={"soil.frictn": [1.0]}, **keys)
+    with pytest.raises(gr.ParameterError, match="outside is"):
+        call(vary=vary, outside="both", **keys)
+    if "slope_deg" in keys:
+        with pytest.raises(gr.ParameterError, match="slope_deg is given twice"):
+            call(vary={"slope_deg": [5.0, 6.0]}, **keys)
+
+
+def test_what_does_not_go_with_varying_is_refused_by_name() -> None:
+    vary = {"gravity_m_s2": [1.62, 9.81]}
+    stand: dict[str, Any] = {"load_n": 17.0, "slip_ratio": 0.2, "vary": vary}
+    for call in (
+        lambda: gr.heading(vary=vary, nominal=True, gradients="gravity_m_s2"),
+        lambda: gr.wheel_test(**stand, trials=3),
+        lambda: gr.wheel_test(**stand, uncertainty=True),
+    ):
+        with pytest.raises(gr.ParameterError, match="vary does not go with") as found:
+            call()
+        assert found.value.name == "vary"
+    with pytest.raises(gr.ParameterError, match="steer"):
+        gr.heading(rover="hakuto", steering="crab", vary={}, nominal=True)
+
+
+#: Calls that take one description at a time, with what they need.
+OTHERS: dict[str, tuple[Any, ...]] = {
+    "simulate": (),
+    "design": ("lightest-wheel",),
+    "map": (gr.Terrain([[0.0, 0.0], [0.0, 0.0]], cell_size_m=1.0),),
+    "forecast": (),
+    "learn": ({"time_s": [0.0, 1.0]},),
+    "replay": ({"time_s": [0.0, 1.0]},),
+    "validate": ("data.csv", "toyoura", "hakuto"),
+    "validate_slopes": ("hakuto-slope", "toyoura", "hakuto"),
+    "calibrate": ("data.csv", "toyoura", "hakuto"),
+    "calibrate_plates": ("cullinan-plates", "toyoura"),
+    "calibrate_shear": ("cullinan-shear", "toyoura"),
+    "Scenario": (),
+    "Learner": (),
+}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_other_calls_say_what_takes_vary(name: str) -> None:
+    with pytest.raises(gr.ParameterError, match="heading_map.*rollout is for runs.*Campaign") as found:
+        needed = {"forecast": {"site": "moon"}, "calibrate": {"fit": "cohesion_kpa"}}.get(name, {})
+        getattr(gr, name)(*OTHERS[name], **needed, vary={"soil.cohesion_kpa": [0.1]})
+    assert found.value.name == "vary"
