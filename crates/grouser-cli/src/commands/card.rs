@@ -16,13 +16,14 @@ use grouser::answers::Sampling;
 use grouser::document::columns::card::{self, MeasuredYaw, YAW_AS_WRITTEN};
 use grouser::document::columns::verdict::{ADVICE, ADVICE_OBJECT};
 use grouser::document::columns::{Column, SLOPE, YAW, card_courses, card_drives};
+use grouser::document::reading::four_digits;
 use grouser::document::table::{Row, Table, WithObject};
 use grouser::document::{LoadedScenario, escape};
 use grouser::simulation::Approach;
 use grouser::studies::card::Card;
 use grouser::studies::card::drives::{CardDrives, RowDrives};
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
-use grouser::studies::verdict::{Side, SlopeStudy};
+use grouser::studies::verdict::{Side, SlopeStudy, Verdict};
 use grouser_draw::{Sheet, markup, pdf_of};
 use grouser_serve::CardOrder;
 use serde::Serialize;
@@ -256,10 +257,12 @@ struct Results<'a> {
 }
 
 /// From which slope on there is no go, and why, as a line; nothing where there is none.
-fn no_go_line(rows: &Table) -> String {
-    let first = CardRow::all(rows).find(|row| row.is_no_go());
-    first.map_or_else(String::new, |row| {
-        format!("{}° and steeper: no-go: {}\n", row.slope(), row.reason())
+fn no_go_line(card: &Card) -> String {
+    let advice = card.rows.iter().map(|row| &row.advice);
+    let first = advice.clone().find(|it| it.judgement.verdict == Verdict::NoGo);
+    first.map_or_else(String::new, |it| {
+        let slope = four_digits(SLOPE.unit.from_si(it.slope));
+        format!("{slope}° and steeper: {}\n", it.judgement.of_several().sentence())
     })
 }
 
@@ -377,7 +380,7 @@ impl Answers<'_> {
         let brief = if card.draws.is_some() { card::bands_brief() } else { card::brief() };
         let driven = CardRow::all(rows).position(CardRow::is_no_go).unwrap_or(rows.rows());
         let table = rows.rows_at(&(0..driven).collect::<Vec<_>>());
-        let text = Rows::of_table(&table).to_table(&brief) + no_go_line(rows);
+        let text = Rows::of_table(&table).to_table(&brief) + no_go_line(card);
         let hints = remedy::of_reasons(card.rows.iter().map(|row| row.advice.judgement.reason));
         let hints: String = hints.into_iter().map(|hint| hint + "\n").collect();
         let scenario = &inputs.scenario;

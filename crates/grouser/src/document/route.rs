@@ -375,12 +375,9 @@ impl HazardRecord {
                 100.0 * number(self.most_no_go),
                 100.0 * limits.most_no_go
             ),
-            Danger::Verdict(reason) => format!("the verdict is no-go: {}", reason.meaning()),
-            Danger::TurnVerdict(reason) => {
-                format!(
-                    "it turns on the spot, and the verdict on that is no-go: {}",
-                    reason.meaning()
-                )
+            Danger::Verdict(why) => format!("the verdict is no-go: {}", why.meaning()),
+            Danger::TurnVerdict(why) => {
+                format!("it turns on the spot, and the verdict on that is no-go: {}", why.meaning())
             }
             Danger::NoTurn => "the line turns, and the rover cannot turn on the spot".to_owned(),
         }

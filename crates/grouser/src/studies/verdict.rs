@@ -18,7 +18,7 @@ mod spot_turn;
 pub use self::driven::{DRIFT_WAY, Driven, DrivenMotion, HEADING_ERROR, SHORTEST_LEG};
 pub(super) use self::driven::{heading_error, largest_current, largest_torque, settings};
 pub(super) use self::held::Holding;
-pub use self::reason::{Judgement, Reason, Verdict};
+pub use self::reason::{Judgement, Reason, Shortfall, Verdict};
 pub use self::rule::{BELOW_FRICTION_ANGLE, Rule, SLIDES_ON_NO_GO, STUCK_ON_GO};
 pub use self::slip_check::{MOST_CHECKED_SLIP, SOIL_LENGTH, STUCK_WITH_CHECKS, SlipCheck};
 pub(super) use self::spot_turn::{SpotTurn, SpotTurns, moving_slip};

@@ -287,30 +287,25 @@ fn verdicts_are_the_rules() {
         let is_free = stuck <= STUCK_ON_GO;
         let drift = motion.and_then(|it| it.drift).map_or(1.0, |drift| drift.high);
         let slides = motion.is_some_and(|it| it.slides.estimate() >= SLIDES_ON_NO_GO);
-        let judgement = |verdict, reason| Judgement { verdict, reason };
         let own = match () {
-            () if failing >= rule.no_go_probability => {
-                judgement(Verdict::NoGo, Reason::ShareThatHolds)
-            }
-            () if motion.is_none() => judgement(Verdict::NoGo, Reason::HeadingFalls),
-            () if stuck >= rule.no_go_probability => judgement(Verdict::NoGo, Reason::Stuck),
-            () if slides => judgement(Verdict::NoGo, Reason::Slides),
+            () if failing >= rule.no_go_probability => (Verdict::NoGo, Reason::ShareThatHolds),
+            () if motion.is_none() => (Verdict::NoGo, Reason::HeadingFalls),
+            () if stuck >= rule.no_go_probability => (Verdict::NoGo, Reason::Stuck),
+            () if slides => (Verdict::NoGo, Reason::Slides),
             () if share(within(rule.go_slip_ratio)) < rule.go_probability => {
-                judgement(Verdict::Caution, Reason::ShareThatHolds)
+                (Verdict::Caution, Reason::ShareThatHolds)
             }
-            () if !is_free => judgement(Verdict::Caution, Reason::Stuck),
-            () if drift > rule.go_drift_m_per_m => judgement(Verdict::Caution, Reason::Drift),
-            () => judgement(Verdict::Go, Reason::AllMet),
+            () if !is_free => (Verdict::Caution, Reason::Stuck),
+            () if drift > rule.go_drift_m_per_m => (Verdict::Caution, Reason::Drift),
+            () => (Verdict::Go, Reason::AllMet),
         };
         println!("{:.0}° {:?}", row.advice.slope.to_degrees(), row.advice.judgement);
         // In half of the samples no heading holds the contour: that is said first.
-        let own = if row.advice.driven.is_none() {
-            judgement(Verdict::NoGo, Reason::NoHeading)
-        } else {
-            own
-        };
-        assert_eq!(row.advice.judgement, own, "{row:?}");
-        reasons.push(own.reason);
+        let own =
+            if row.advice.driven.is_none() { (Verdict::NoGo, Reason::NoHeading) } else { own };
+        let Judgement { verdict, reason, .. } = row.advice.judgement;
+        assert_eq!((verdict, reason), own, "{row:?}");
+        reasons.push(reason);
     }
     for reason in [Reason::AllMet, Reason::Drift, Reason::ShareThatHolds] {
         assert!(reasons.contains(&reason), "{reasons:?}");

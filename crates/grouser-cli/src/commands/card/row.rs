@@ -1,9 +1,9 @@
 //! A row of the card, as the page reads it.
 
-use grouser::document::columns::verdict::{REASON, VERDICT};
+use grouser::document::columns::verdict::VERDICT;
 use grouser::document::columns::{Quantity, SLOPE, YAW};
 use grouser::document::table::Table;
-use grouser::studies::verdict::{Reason, Verdict};
+use grouser::studies::verdict::Verdict;
 
 /// A slope of the card.
 #[derive(Clone, Copy)]
@@ -35,12 +35,6 @@ impl<'a> CardRow<'a> {
     /// `go`, `caution`, `cannot_tell` or `no_go`.
     pub(super) fn verdict(self) -> &'a str {
         self.table.texts(VERDICT)[self.place].as_deref().unwrap_or_default()
-    }
-
-    /// What decides it, in words.
-    pub(super) fn reason(self) -> &'static str {
-        let name = self.table.texts(REASON)[self.place].as_deref().unwrap_or_default();
-        Reason::ALL.into_iter().find(|it| it.name() == name).map_or("", Reason::meaning)
     }
 
     /// Whether it is not to be driven.

@@ -7,7 +7,7 @@ use grouser::document::limited_quantity;
 use grouser::document::reading::four_digits;
 use grouser::mission::Stop;
 use grouser::studies::card::Card;
-use grouser::studies::verdict::Verdict;
+use grouser::studies::verdict::{Judgement, Verdict};
 
 use super::texts::Texts;
 use crate::failure::Failure;
@@ -73,7 +73,8 @@ fn downwards(limit: f64) -> f64 {
 pub(super) fn missing(card: &Card, slope_deg: Option<f64>) -> Failure {
     let judgements = card.rows.iter().map(|row| row.advice.judgement);
     let doubt = judgements.clone().find(|it| it.verdict == Verdict::CannotTell);
-    let why = doubt.or_else(|| judgements.clone().next()).map_or("", |it| it.reason.meaning());
+    let why =
+        doubt.or_else(|| judgements.clone().next()).map_or_else(String::new, Judgement::meaning);
     if let (Some(slope), None) = (slope_deg.map(four_digits), doubt) {
         return Failure::Run(format!(
             "--stops-slope-deg {slope}: this card has no go or caution on a slope as steep"

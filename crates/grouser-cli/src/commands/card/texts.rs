@@ -267,7 +267,7 @@ fn first_of(card: &Card, verdict: Verdict) -> Option<String> {
     let first =
         card.rows.iter().map(|row| &row.advice).find(|it| it.judgement.verdict == verdict)?;
     let slope = four_digits(SLOPE.unit.from_si(first.slope));
-    Some(format!("from {slope}°: {}", first.judgement.reason.meaning()))
+    Some(format!("from {slope}°: {}", first.judgement.meaning()))
 }
 
 /// How well the soil is known, and what the bands are over.

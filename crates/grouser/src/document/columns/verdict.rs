@@ -7,7 +7,7 @@ use super::super::unit::{DEG, ONE};
 use super::{Column, Quantity, YAW, quantity, text};
 use crate::contact::Model;
 use crate::studies::ensemble::models::ACROSS;
-use crate::studies::verdict::{Advice, Judgement, Verdict};
+use crate::studies::verdict::{Advice, Verdict};
 
 /// The verdict on a slope.
 pub const VERDICT: &str = "verdict";
@@ -71,13 +71,13 @@ pub fn subject(advice: &Advice) -> String {
 pub fn in_words(all: &[Advice]) -> String {
     let deg = |angle: f64| four_digits(DEG.as_given(angle));
     let words = all.iter().map(|advice| {
-        let Judgement { verdict, reason } = advice.judgement;
+        let verdict = advice.judgement.verdict;
         let yaw = advice.heading().filter(|_| verdict != Verdict::NoGo);
         let nose =
             yaw.map_or_else(String::new, |yaw| format!(", nose at {:.1}°", DEG.from_si(yaw)));
         let why = match verdict {
             Verdict::Go => String::new(),
-            _ => format!(" ({})", reason.meaning()),
+            _ => format!(" ({})", advice.judgement.meaning()),
         };
         format!("{}° {}{nose}{why}", deg(advice.slope), verdict.in_words())
     });

@@ -43,7 +43,7 @@ fn verdict((number, leg): (usize, &JudgedLeg), count: usize) -> String {
         " {verdict}{of_legs}{} ({}): {}.",
         from_the_start(leg.place.along[0]),
         subject(advice),
-        advice.judgement.reason.meaning()
+        advice.judgement.meaning()
     )
 }
 

@@ -11,7 +11,7 @@ use crate::studies::heading::{HeadingCurve, LimitedBy, STRAIGHT_UP};
 use crate::studies::mobility::{
     Beyond, Detail, Mobility, MobilityTable, advised_place, slope_and_course,
 };
-use crate::studies::verdict::{Reason, SpotTurns};
+use crate::studies::verdict::{Judgement, SpotTurns};
 
 /// Courses from straight down to straight up are so far apart [rad]: 7.5°.
 const COURSE_STEP: f64 = std::f64::consts::PI / 24.0;
@@ -48,7 +48,7 @@ pub struct RouteTables {
     step: f64,
     /// The least slope of each sampled course that has the verdict no-go [rad], where that has been
     /// looked for, with the reason.
-    no_go_from: [Option<(f64, Reason)>; SAMPLED_COURSES],
+    no_go_from: [Option<(f64, Judgement)>; SAMPLED_COURSES],
     /// Turns on the spot.
     pub(super) turns: SpotTurns,
     /// The least slope on which none is made [rad].
@@ -257,11 +257,11 @@ impl RouteTables {
     /// Keeps ways off slopes of a course that have the verdict no-go; returns whether that is new.
     ///
     /// * `from`: the least of them [rad], a class of slopes
-    pub(super) fn keep_off(&mut self, course: f64, from: f64, reason: Reason) -> bool {
+    pub(super) fn keep_off(&mut self, course: f64, from: f64, why: Judgement) -> bool {
         let known = &mut self.no_go_from[nearest_course(course)];
         let is_new = known.is_none_or(|(known, _)| from < known);
         if is_new {
-            *known = Some((from, reason));
+            *known = Some((from, why.of_several()));
         }
         is_new
     }
@@ -279,9 +279,9 @@ impl RouteTables {
     }
 
     /// Why a slope and course have the verdict no-go, if that has been found.
-    fn verdict_of_no_go(&self, slope: f64, course: f64) -> Option<Reason> {
-        let (from, reason) = self.no_go_from[nearest_course(course)]?;
-        (advised_place((slope, course)).0 >= from).then_some(reason)
+    fn verdict_of_no_go(&self, slope: f64, course: f64) -> Option<Judgement> {
+        let (from, why) = self.no_go_from[nearest_course(course)]?;
+        (advised_place((slope, course)).0 >= from).then_some(why)
     }
 
     fn motion(&self, slope: f64, course: f64) -> Option<Mobility> {

@@ -1,10 +1,10 @@
 //! Why a line is not safe to drive along, and where.
 
-use crate::studies::verdict::Reason;
+use crate::studies::verdict::Judgement;
 use crate::units::Vec2;
 
 /// What makes a piece of a line unsafe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Danger {
     /// It lies beyond the map, at its edge, or beside a place without a height.
     UnknownGround,
@@ -18,10 +18,10 @@ pub enum Danger {
     TooMuchSlip,
     /// It is a no-go in as many of the samples as the limit, or more; the worst is their share [-].
     NoGo,
-    /// It has the verdict no-go, for this reason.
-    Verdict(Reason),
-    /// It turns on the spot there, and the verdict on that is no-go, for this reason.
-    TurnVerdict(Reason),
+    /// It has the verdict no-go, for the reason of this one.
+    Verdict(Judgement),
+    /// It turns on the spot there, and the verdict on that is no-go, for the reason of this one.
+    TurnVerdict(Judgement),
     /// The line turns there, and the rover cannot turn on the spot on level ground.
     NoTurn,
 }

@@ -89,7 +89,7 @@ impl JudgedLeg {
     pub fn hazard(&self) -> Option<Hazard> {
         let LegPlace { along, place, .. } = self.place;
         let of = if self.advice.is_of_turn() { Danger::TurnVerdict } else { Danger::Verdict };
-        let danger = of(self.advice.judgement.reason);
+        let danger = of(self.advice.judgement);
         (self.verdict() == Verdict::NoGo).then_some(Hazard { danger, along, place, worst: None })
     }
 }

@@ -10,7 +10,7 @@ use super::study::{Objective, RouteStudy};
 use crate::error::ParameterError;
 use crate::studies::ensemble::samples::Sample;
 use crate::studies::mobility::{Ground, class_of};
-use crate::studies::verdict::{Judgement, Verdict};
+use crate::studies::verdict::Verdict;
 use crate::terrain::Footprint;
 use crate::units::Vec2;
 use grouser_io::unit::DEG;
@@ -92,8 +92,7 @@ impl RouteStudy {
             let no_go = || legs.iter().flatten().filter(|leg| leg.verdict() == Verdict::NoGo);
             for leg in no_go().filter(|leg| !leg.advice.is_of_turn()) {
                 let Some(from) = self.no_go_from(leg, samples, go_on)? else { return Ok(None) };
-                let Judgement { reason, .. } = leg.advice.judgement;
-                is_new |= tables.keep_off(leg.advice.course, from, reason);
+                is_new |= tables.keep_off(leg.advice.course, from, leg.advice.judgement);
             }
             if !is_new {
                 // Legs are not bad: their turns may be.

@@ -1,5 +1,7 @@
 //! Go, caution, cannot tell and no-go, and the reasons for them.
 
+use grouser_io::reading::four_digits;
+
 /// Whether to drive on a slope; the worst is the last.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
@@ -142,22 +144,49 @@ impl Reason {
 }
 
 /// A verdict with what decides it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,
     /// The first condition that makes it so.
     pub reason: Reason,
+    /// The limit that decides, of [`Reason::ShareThatHolds`].
+    pub shortfall: Option<Shortfall>,
+}
+
+/// Too few samples in which a heading holds the course at an acceptable slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shortfall {
+    /// The slip ratio that is acceptable [-].
+    pub slip_ratio: f64,
+    /// Of a caution the least share of the samples that hold, of a no-go the share of those that do
+    /// not from which on it is one [-].
+    pub limit: f64,
+    /// That share; `None` where it is said of several places [-].
+    pub share: Option<f64>,
 }
 
 impl Judgement {
     /// Nothing speaks against it.
-    pub(in super::super) const GO: Self = Self { verdict: Verdict::Go, reason: Reason::AllMet };
+    pub(in super::super) const GO: Self = Self::new(Verdict::Go, Reason::AllMet);
+
+    const fn new(verdict: Verdict, reason: Reason) -> Self {
+        Self { verdict, reason, shortfall: None }
+    }
 
     /// Takes a condition into account, if it is met.
     pub(in super::super) fn add(&mut self, is_met: bool, verdict: Verdict, reason: Reason) {
         if is_met && verdict > self.verdict {
-            *self = Self { verdict, reason };
+            *self = Self::new(verdict, reason);
+        }
+    }
+
+    /// Takes into account that too few samples hold, if so.
+    pub(super) fn add_shortfall(&mut self, is_met: bool, verdict: Verdict, shortfall: Shortfall) {
+        if is_met && verdict > self.verdict {
+            let shortfall = Some(shortfall);
+            *self = Self { shortfall, ..Self::new(verdict, Reason::ShareThatHolds) };
         }
     }
 
@@ -167,10 +196,41 @@ impl Judgement {
         if other.verdict > self.verdict { other } else { self }
     }
 
+    /// The same said of several places, as of all steeper slopes: without the share of one of them.
+    #[must_use]
+    pub fn of_several(self) -> Self {
+        let shortfall = self.shortfall.map(|it| Shortfall { share: None, ..it });
+        Self { shortfall, ..self }
+    }
+
+    /// What decides it, with the limit: the end of a sentence that begins with the verdict.
+    #[must_use]
+    pub fn meaning(self) -> String {
+        let Some(Shortfall { slip_ratio, limit, share }) = self.shortfall else {
+            return self.reason.meaning().to_owned();
+        };
+        let percent = |share: f64| format!("{} %", four_digits(100.0 * share));
+        let (limit, at) = (percent(limit), four_digits(slip_ratio));
+        let heading =
+            |which| format!("{which} heading holds the course with a slip ratio up to {at}");
+        match (self.verdict, share.map(percent)) {
+            (Verdict::NoGo, Some(share)) => {
+                format!("in {share} of the samples {}, and {limit} make a no-go", heading("no"))
+            }
+            (Verdict::NoGo, None) => {
+                format!("in {limit} of the samples or more {}", heading("no"))
+            }
+            (_, Some(share)) => {
+                format!("in {share} of the samples {}, and a go takes {limit}", heading("a"))
+            }
+            (_, None) => format!("in less than {limit} of the samples {}", heading("a")),
+        }
+    }
+
     /// Verdict and reason in a sentence without its full stop: `no-go: the rover tips over …`.
     #[must_use]
     pub fn sentence(self) -> String {
-        format!("{}: {}", self.verdict.in_words(), self.reason.meaning())
+        format!("{}: {}", self.verdict.in_words(), self.meaning())
     }
 }
 
@@ -185,9 +245,9 @@ mod tests {
         assert_eq!(found, Judgement::GO);
         found.add(true, Verdict::Caution, Reason::Drift);
         found.add(true, Verdict::Caution, Reason::Stuck);
-        assert_eq!(found, Judgement { verdict: Verdict::Caution, reason: Reason::Drift });
+        assert_eq!(found, Judgement::new(Verdict::Caution, Reason::Drift));
         found.add(true, Verdict::CannotTell, Reason::OutsideDomain);
-        let no_go = Judgement { verdict: Verdict::NoGo, reason: Reason::Slides };
+        let no_go = Judgement::new(Verdict::NoGo, Reason::Slides);
         assert_eq!((found.or(no_go), no_go.or(found)), (no_go, no_go));
         assert!(Verdict::ALL.windows(2).all(|pair| pair[0] < pair[1]));
     }

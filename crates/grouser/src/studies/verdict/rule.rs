@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use super::held::Holding;
-use super::reason::{Judgement, Reason, Verdict};
+use super::reason::{Judgement, Reason, Shortfall, Verdict};
 use crate::error::{ParameterError, positive};
 
 /// The limits of the verdicts. Source of all numbers: ours; a mission has its own.
@@ -94,11 +94,15 @@ impl Rule {
         let failing = share(all - holding - unknown);
         let (most, least) = (self.no_go_probability - ROUND_OFF, self.go_probability - ROUND_OFF);
         let mut found = Judgement::GO;
-        found.add(failing >= most, Verdict::NoGo, Reason::ShareThatHolds);
+        let shortfall =
+            |slip_ratio, limit, share| Shortfall { slip_ratio, limit, share: Some(share) };
+        let no_go = shortfall(self.no_go_slip_ratio, self.no_go_probability, failing);
+        found.add_shortfall(failing >= most, Verdict::NoGo, no_go);
         let could_decide =
             share(all - holding) >= most || (share(go) < least && share(go + unknown) >= least);
         found.add(unknown > 0 && could_decide, Verdict::CannotTell, Reason::SearchGaveUp);
-        found.add(share(go) < least, Verdict::Caution, Reason::ShareThatHolds);
+        let caution = shortfall(self.go_slip_ratio, self.go_probability, share(go));
+        found.add_shortfall(share(go) < least, Verdict::Caution, caution);
         found
     }
 }
@@ -126,7 +130,39 @@ mod tests {
             ([0, 0, 100], CannotTell, SearchGaveUp),
         ] {
             let found = Rule::DEFAULT.on_counts(counts, 100);
-            assert_eq!(found, Judgement { verdict, reason }, "{counts:?}");
+            assert_eq!((found.verdict, found.reason), (verdict, reason), "{counts:?}");
+            assert_eq!(found.shortfall.is_some(), reason == ShareThatHolds, "{counts:?}");
+        }
+    }
+
+    /// The sentence names the limit that decides, by the rule's own numbers.
+    #[test]
+    fn caution_and_no_go_each_name_their_own_limit() {
+        let rule = Rule { go_probability: 0.9, no_go_slip_ratio: 0.5, ..Rule::DEFAULT };
+        let [caution, no_go] = [[62, 81, 0], [10, 72, 3]].map(|it| rule.on_counts(it, 100));
+        for (found, said) in [
+            (
+                caution,
+                "in 62 % of the samples a heading holds the course with a slip ratio up to \
+                       0.3, and a go takes 90 %",
+            ),
+            (
+                no_go,
+                "in 25 % of the samples no heading holds the course with a slip ratio up to 0.5, \
+                     and 20 % make a no-go",
+            ),
+            (
+                caution.of_several(),
+                "in less than 90 % of the samples a heading holds the course with \
+                                    a slip ratio up to 0.3",
+            ),
+            (
+                no_go.of_several(),
+                "in 20 % of the samples or more no heading holds the course with a \
+                                  slip ratio up to 0.5",
+            ),
+        ] {
+            assert_eq!(found.meaning(), said);
         }
     }
 }
