@@ -12,7 +12,7 @@ use pyo3::types::{PyDict, PyList};
 use crate::errors;
 use crate::gradients::of_records;
 use crate::interrupt::listening;
-use crate::runs::{Asked, Runs};
+use crate::runs::{AskedRuns, Runs};
 use crate::wheels::column;
 
 /// The numbers of a record, those on ground with heights last.
@@ -82,12 +82,12 @@ impl End {
 #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
 pub(crate) fn rollout<'py>(
     py: Python<'py>,
-    asked: Asked<'py>,
+    asked: AskedRuns<'py>,
     keep: bool,
     gradients: Option<Vec<String>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let runs = Runs::<Scenario>::new(&asked)?;
-    let Asked(scenarios, .., count, outside_is_nan) = asked;
+    let AskedRuns(scenarios, .., count, outside_is_nan, _) = asked;
     let on_heights = runs.is_any(|base| !base.ground.is_plane());
     let keys = match (&gradients, scenarios.first()) {
         (Some(names), Some(base)) => Some(runs.gradient_keys(base.scenario()?, names)?),

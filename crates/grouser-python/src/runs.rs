@@ -24,7 +24,7 @@ use crate::varied::{self, KEYS, RIM_SPEED, VariedKeys};
 use crate::wheels::{check_or_nan, inside};
 
 /// What a run is made of: a scenario, or a mission.
-pub(crate) trait Base: Described + Send + Sync {
+pub(crate) trait RunBase: Described + Send + Sync {
     fn loaded(document: &Document) -> PyResult<&Loaded<Self>>;
 
     fn scenario(&mut self) -> &mut Scenario;
@@ -33,7 +33,7 @@ pub(crate) trait Base: Described + Send + Sync {
     fn drive(&self) -> Option<&DriveLaw>;
 }
 
-impl Base for Scenario {
+impl RunBase for Scenario {
     fn loaded(document: &Document) -> PyResult<&Loaded<Self>> {
         document.scenario()
     }
@@ -47,7 +47,7 @@ impl Base for Scenario {
     }
 }
 
-impl Base for Plan {
+impl RunBase for Plan {
     fn loaded(document: &Document) -> PyResult<&Loaded<Self>> {
         document.mission()
     }
@@ -63,7 +63,7 @@ impl Base for Plan {
 
 /// What is asked, as Python has it.
 #[derive(FromPyObject)]
-pub(crate) struct Asked<'py>(
+pub(crate) struct AskedRuns<'py>(
     /// Scenarios or missions, and which of them each run has.
     pub(crate) Vec<PyRef<'py, Document>>,
     pub(crate) Index<'py>,
@@ -76,6 +76,8 @@ pub(crate) struct Asked<'py>(
     pub(crate) usize,
     /// Whether a run with a number out of its range has no results, and is no error.
     pub(crate) bool,
+    /// Runs without a document, and why.
+    pub(crate) Vec<(usize, String)>,
 );
 
 /// Many runs, which share what is the same for them.
@@ -102,12 +104,12 @@ pub(crate) struct Runs<V> {
 /// Which of some things each run has, if there are several.
 pub(crate) type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
 
-impl<V: Base> Runs<V> {
+impl<V: RunBase> Runs<V> {
     /// Checks that every run has a scenario, a soil where there are some, and numbers in their
     /// ranges.
-    pub(crate) fn new(asked: &Asked<'_>) -> PyResult<Self> {
-        let Asked(scenarios, scenario_index, soils, soil_index, varied, count, outside_is_nan) =
-            asked;
+    pub(crate) fn new(asked: &AskedRuns<'_>) -> PyResult<Self> {
+        let AskedRuns(scenarios, scenario_index, soils, soil_index, varied, ..) = asked;
+        let AskedRuns(.., count, outside_is_nan, without_document) = asked;
         let (count, outside_is_nan) = (*count, *outside_is_nan);
         let bases = scenarios.iter().map(|it| V::loaded(it)).collect::<PyResult<Vec<_>>>()?;
         let soils = soils.iter().map(|it| it.soil()).collect::<PyResult<Vec<_>>>()?;
@@ -137,7 +139,7 @@ impl<V: Base> Runs<V> {
             varied: arguments,
             of_bases,
             of_soils,
-            outside: outside.into_iter().collect(),
+            outside: without_document.iter().cloned().chain(outside).collect(),
             count,
             outside_is_nan,
         };

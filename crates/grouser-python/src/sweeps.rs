@@ -3,9 +3,9 @@
 use std::collections::HashMap;
 
 use grouser::document::columns::heading::{map_table, steepest, table};
-use grouser::document::columns::{self, COURSE, SLOPE};
+use grouser::document::columns::{self, COURSE, OK, SLOPE, STATUS};
 use grouser::document::study::{COURSE_DEG, MAP_SPEED_M_S};
-use grouser::document::table::Table;
+use grouser::document::table::{Table, Values};
 use grouser::document::{Plan, Problem};
 use grouser::error::ParameterError;
 use grouser::mission::MissionError;
@@ -14,7 +14,7 @@ use grouser::studies::ensemble::outputs_while;
 use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::studies::heading_map::HeadingMap;
 use grouser::studies::mission::DrivenMission;
-use grouser::studies::wheel_speeds::{WheelSpeedStudy, WheelSpeeds};
+use grouser::studies::wheel_speeds::{SpeedFreedom, WheelSpeedStudy, WheelSpeeds};
 use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -22,12 +22,12 @@ use pyo3::types::PyDict;
 use crate::columns::table_to_python;
 use crate::errors;
 use crate::interrupt::listening;
-use crate::runs::{Asked, Base, Runs};
+use crate::runs::{AskedRuns, RunBase, Runs};
 use crate::studies::slopes;
 use crate::wheels::check;
 
 /// The table of a study, and one that stands beside it, such as what ends its slopes.
-type Tables = [Table; 2];
+type StudyTables = [Table; 2];
 
 /// Why an entry has no tables.
 enum NoTables {
@@ -43,35 +43,37 @@ impl<E: Into<Problem>> From<E> for NoTables {
     }
 }
 
-/// Both tables, of the entries that have some one below the other; how many rows each entry has in
-/// each; these entries; and the others, with the reason.
-type Swept<'py> = (Vec<(Bound<'py, PyDict>, usize)>, Vec<usize>, Vec<(usize, String)>);
+/// Both tables, those of all entries one below the other: what an entry does not have is missing, and
+/// its `status` says why.
+type Swept<'py> = Vec<Bound<'py, PyDict>>;
 
 /// A study of many entries, on all cores; in their order, whatever the threads did.
 ///
+/// * `rows`: how many rows an entry has in each table
 /// * `but_for`: the argument in which entries may differ that are computed together
 /// * `study`: the tables of each of such entries
-fn swept<'py, V: Base>(
+fn swept<'py, V: RunBase>(
     py: Python<'py>,
-    asked: &Asked<'py>,
+    asked: &AskedRuns<'py>,
+    rows: [usize; 2],
     but_for: &str,
-    study: impl Fn(&Runs<V>, &[usize]) -> Result<Vec<Tables>, NoTables> + Send + Sync + 'static,
+    study: impl Fn(&Runs<V>, &[usize]) -> Result<Vec<StudyTables>, NoTables> + Send + Sync + 'static,
 ) -> PyResult<Swept<'py>> {
     let runs = Runs::<V>::new(asked)?;
     let (count, outside_is_nan) = (runs.count, runs.outside_is_nan);
-    let mut missing: Vec<(usize, String)> = Vec::new();
+    let mut entries: Vec<Result<StudyTables, String>> = Vec::with_capacity(count);
     let mut known: HashMap<Vec<u64>, usize> = HashMap::new();
     let mut alike: Vec<Vec<usize>> = Vec::new();
     for place in 0..count {
-        if let Some(why) = runs.why_none(place) {
-            missing.push((place, why));
-            continue;
+        let why = runs.why_none(place);
+        if why.is_none() {
+            let group = *known.entry(runs.bits_but_for(place, but_for)).or_insert(alike.len());
+            if group == alike.len() {
+                alike.push(Vec::new());
+            }
+            alike[group].push(place);
         }
-        let group = *known.entry(runs.bits_but_for(place, but_for)).or_insert(alike.len());
-        if group == alike.len() {
-            alike.push(Vec::new());
-        }
-        alike[group].push(place);
+        entries.push(Err(why.unwrap_or_default()));
     }
     let groups = alike.clone();
     let found = listening(py, move |cancelled| {
@@ -83,30 +85,42 @@ fn swept<'py, V: Base>(
         Ok(found.unwrap_or_default())
     })?;
     let found = found.map_err(|(place, problem)| errors::misfit_at(place, count, &problem))?;
-    let (mut order, mut firsts, mut seconds) = (Vec::new(), Vec::new(), Vec::new());
     for (places, found) in alike.into_iter().zip(found) {
-        let why = match found {
+        match found {
             Ok(tables) => {
-                order.extend(places);
-                for [first, second] in tables {
-                    firsts.push(first);
-                    seconds.push(second);
-                }
-                continue;
+                places.into_iter().zip(tables).for_each(|(place, own)| entries[place] = Ok(own));
             }
             Err(NoTables::Unfit(problem)) if !outside_is_nan => {
                 return Err(errors::misfit_at(places[0], count, &problem));
             }
-            Err(NoTables::Unfit(problem)) => problem.to_string(),
-            Err(NoTables::Failed(why)) => why,
-        };
-        missing.extend(places.into_iter().map(|place| (place, why.clone())));
+            Err(NoTables::Unfit(problem)) => {
+                places.into_iter().for_each(|place| entries[place] = Err(problem.to_string()));
+            }
+            Err(NoTables::Failed(why)) => {
+                places.into_iter().for_each(|place| entries[place] = Err(why.clone()));
+            }
+        }
     }
-    let stacked = [firsts, seconds].map(|tables| {
-        let rows = tables.iter().map(Table::rows).max().unwrap_or(0);
-        Ok((table_to_python(py, Table::stacked(tables, rows))?, rows))
+    let why = |entry: &Result<StudyTables, String>| entry.as_ref().err().cloned();
+    let why: Vec<Option<String>> = entries.iter().map(why).collect();
+    let (firsts, seconds): (Vec<Table>, Vec<Table>) =
+        entries.into_iter().map(|it| it.unwrap_or_default().into()).unzip();
+    let both = [firsts, seconds].into_iter().zip(rows);
+    let tables = both.map(|(tables, rows)| with_status(Table::stacked(tables, rows), &why, rows));
+    tables.map(|table| table_to_python(py, table)).collect()
+}
+
+/// With a `status` in every row: its own, or why the entry of the row is not there.
+fn with_status(mut table: Table, why: &[Option<String>], rows: usize) -> Table {
+    let own = table.columns.iter().position(|(name, _)| name == STATUS);
+    let own = own.map(|place| table.columns.remove(place).1);
+    let each = (0..why.len() * rows).map(|row| match (&why[row / rows], &own) {
+        (Some(why), _) => Some(why.clone()),
+        (None, Some(Values::Text(own))) => own[row].clone(),
+        _ => Some(OK.to_owned()),
     });
-    Ok((stacked.into_iter().collect::<PyResult<_>>()?, order, missing))
+    table.columns.push((STATUS.to_owned(), Values::Text(each.collect())));
+    table
 }
 
 /// The slopes [rad] that an entry is asked for: its own where they vary, else those of all.
@@ -121,14 +135,19 @@ fn over_slopes<T>(
     places: &[usize],
     slopes: &[f64],
     study: impl FnOnce(Scenario) -> Result<T, NoTables>,
-    tables: impl Fn(&T, &[f64]) -> Result<Tables, NoTables>,
-) -> Result<Vec<Tables>, NoTables> {
+    tables: impl Fn(&T, &[f64]) -> Result<StudyTables, NoTables>,
+) -> Result<Vec<StudyTables>, NoTables> {
     let found = study(runs.value(places[0]).map_err(NoTables::Unfit)?)?;
     places.iter().map(|place| tables(&found, &slopes_of(runs, *place, slopes))).collect()
 }
 
+/// How many slopes an entry is asked for.
+fn rows_of(asked: &AskedRuns<'_>, slopes: usize) -> PyResult<usize> {
+    Ok(if asked.4.contains(SLOPE.name)? { 1 } else { slopes })
+}
+
 /// Warns of terrain that an answer about planes does not use.
-fn on_planes(py: Python<'_>, asked: &Asked<'_>) -> PyResult<()> {
+fn on_planes(py: Python<'_>, asked: &AskedRuns<'_>) -> PyResult<()> {
     asked.0.iter().try_for_each(|scenario| scenario.scenario_on_planes(py).map(drop))
 }
 
@@ -138,14 +157,15 @@ fn on_planes(py: Python<'_>, asked: &Asked<'_>) -> PyResult<()> {
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading_sweep<'py>(
     py: Python<'py>,
-    asked: Asked<'py>,
+    asked: AskedRuns<'py>,
     slope_deg: PyReadonlyArray1<'py, f64>,
     steering: &str,
 ) -> PyResult<Swept<'py>> {
     let slopes = slopes(&slope_deg)?;
+    let rows = [rows_of(&asked, slopes.len())?, 1];
     on_planes(py, &asked)?;
     let steering = Steering::ALL.into_iter().find(|it| it.name() == steering).unwrap_or_default();
-    swept(py, &asked, SLOPE.name, move |runs, places| {
+    swept(py, &asked, rows, SLOPE.name, move |runs, places| {
         let curve = |scenario: Scenario| {
             let study = HeadingStudy { steering, ..HeadingStudy::of(&scenario) };
             Ok((study.curve()?, study.rover))
@@ -161,7 +181,7 @@ pub(crate) fn heading_sweep<'py>(
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading_map_sweep<'py>(
     py: Python<'py>,
-    asked: Asked<'py>,
+    asked: AskedRuns<'py>,
     slope_deg: PyReadonlyArray1<'py, f64>,
     course_deg: PyReadonlyArray1<'py, f64>,
     rim_speed_m_s: f64,
@@ -170,8 +190,9 @@ pub(crate) fn heading_map_sweep<'py>(
     check(COURSE.name, course_deg.as_slice()?, &COURSE_DEG)?;
     check("rim_speed_m_s", &[rim_speed_m_s], &MAP_SPEED_M_S)?;
     let courses = COURSE.in_si(course_deg.as_slice()?);
+    let rows = [courses.len() * rows_of(&asked, slopes.len())?, 0];
     on_planes(py, &asked)?;
-    swept(py, &asked, SLOPE.name, move |runs, places| {
+    swept(py, &asked, rows, SLOPE.name, move |runs, places| {
         let study = |scenario: Scenario| Ok(HeadingStudy::of(&scenario));
         over_slopes(runs, places, &slopes, study, |study, slopes| {
             let map = HeadingMap::of(std::slice::from_ref(study), &courses, slopes)?;
@@ -187,13 +208,15 @@ pub(crate) fn heading_map_sweep<'py>(
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn wheel_speeds_sweep<'py>(
     py: Python<'py>,
-    asked: Asked<'py>,
+    asked: AskedRuns<'py>,
     slope_deg: PyReadonlyArray1<'py, f64>,
     most_speed_ratio: f64,
 ) -> PyResult<Swept<'py>> {
     let slopes = slopes(&slope_deg)?;
+    let freedoms = SpeedFreedom::ALL.len();
+    let rows = [freedoms * rows_of(&asked, slopes.len())?, freedoms + 1];
     on_planes(py, &asked)?;
-    swept(py, &asked, SLOPE.name, move |runs, places| {
+    swept(py, &asked, rows, SLOPE.name, move |runs, places| {
         let speeds = |scenario: Scenario| {
             let heading = HeadingStudy::of(&scenario);
             let curve = heading.curve()?;
@@ -210,16 +233,22 @@ pub(crate) fn wheel_speeds_sweep<'py>(
 
 /// Missions: a row for each alternative, and one for each leg of each, those that were not begun
 /// with nothing. Only the ends are kept.
+///
+/// * `ways`, `legs`: how many alternatives there are, and legs of each at most
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how lists come from Python")]
-pub(crate) fn mission_sweep<'py>(py: Python<'py>, asked: Asked<'py>) -> PyResult<Swept<'py>> {
-    swept(py, &asked, "", |runs: &Runs<Plan>, places| {
+pub(crate) fn mission_sweep<'py>(
+    py: Python<'py>,
+    asked: AskedRuns<'py>,
+    ways: usize,
+    legs: usize,
+) -> PyResult<Swept<'py>> {
+    swept(py, &asked, [ways, ways * legs], "", move |runs: &Runs<Plan>, places| {
         let plan = runs.value(places[0]).map_err(NoTables::Unfit)?;
         let ways = DrivenMission::all_ends(&plan.missions()).map_err(|error| match error {
             MissionError::Plan(error) => NoTables::from(error.source),
             MissionError::Run(error) => NoTables::Failed(error.to_string()),
         })?;
-        let legs = ways.iter().map(|way| way.planned).max().unwrap_or(0);
         let of_legs = Table::stacked(ways.iter().map(DrivenMission::table), legs);
         let tables = [DrivenMission::alternatives(&ways), of_legs];
         Ok(vec![tables; places.len()])

@@ -49,6 +49,18 @@ def stopped_by(mission: gr.Mission) -> dict[str, str | None]:
     return {name: way.legs.stopped_by[-1] for name, way in found.alternatives.items()}
 
 
+def swept(cohesions_kpa: list[float]) -> NDArray[np.float64]:
+    vary = {"soil.cohesion_kpa": cohesions_kpa}
+    headings: gr.Sweep = gr.heading(slope_deg=[5.0], vary=vary, nominal=True)
+    maps: gr.Sweep = gr.heading_map(slope_deg=[5.0], course_deg=[0.0], vary=vary, outside="nan")
+    speeds: gr.Sweep = gr.wheel_speeds(slope_deg=[5.0], vary={}, rover=["hakuto", "hakuto-steered"])
+    stand: gr.Sweep = gr.wheel_test(wheel=["hakuto"], load_n=17.0, slip_ratio=0.2, vary=vary)
+    models: gr.ByModel[gr.Sweep] = gr.heading(model="all", vary={}, slope_deg=[5.0], nominal=True)
+    print(maps["yaw_deg"], speeds.limits.limit_slope_deg, stand.shape, len(models), headings.status)
+    yaws: NDArray[np.float64] = headings["yaw_deg"]
+    return yaws
+
+
 def main() -> None:
     site: gr.Site = gr.Site("toyoura", slope_deg=10.0).replace(gravity_m_s2=gr.MOON_GRAVITY)
     soil: gr.Soil = gr.Soil("toyoura").replace(cohesion_kpa=0.5)
@@ -67,6 +79,7 @@ def main() -> None:
     print(test.drawbar_pull_n.mean(axis=-1) - exact.wheels.drawbar_pull_n)
     limit: float | None = level.limit_slope_deg
     print(stopped_by(gr.Mission("two-steps-forward")))
+    print(swept([0.1, 0.5]))
     try:
         print(deepest([soil], 17.0), downhill_m(10.0), limit, ends.outcome[0], stepped([gr.Scenario()]))
     except gr.ParameterError as error:

@@ -120,20 +120,7 @@ _SHOWN = tuple(one.name for one in fields(Card)[:-3])
 
 @overload
 def card(
-    scenario: Scenario | Source | None = None,
-    /,
-    *,
-    vary: Vary,
-    slope_deg: ArrayLike | None = ...,
-    samples: int = ...,
-    seed: int = ...,
-    rim_speed_m_s: float | None = ...,
-    uphill: Literal["left", "right"] = ...,
-    rule: Mapping[str, float] | None = ...,
-    holds_heading: bool = ...,
-    accept_contradiction: bool = ...,
-    outside: Outside = ...,
-    **changes: Any,
+    scenario: Scenario | Source | None = None, /, *, vary: Vary, **asked: Any
 ) -> Sweep: ...
 
 
@@ -233,13 +220,14 @@ def card(
     """
     slopes = np.arange(61.0) if slope_deg is None else line("slope_deg", slope_deg)
     if vary is not None:
-        own = ("slope_deg",)
-        asked = entered(Scenario, scenario, changes, vary, outside, taken=own, by_document=True)
+        asked = entered(
+            Scenario, scenario, changes, vary, outside, ("slope_deg",), by_document=True
+        )
         settings: dict[str, Any] = {"slope_deg": slopes, "samples": samples, "seed": seed}
         settings |= {"rim_speed_m_s": rim_speed_m_s, "uphill": uphill, "rule": rule}
         settings |= {"holds_heading": holds_heading, "accept_contradiction": accept_contradiction}
         cards = of_each(asked, lambda run: card(run, **settings).columns)
-        return sweep_of(asked, cards, {"slope_deg": slopes}, "card", ("yaw_deg",))
+        return sweep_of(asked, cards, "card", ("yaw_deg",), {"slope_deg": slopes})
     run = scenario_of(scenario, changes)
     if uphill not in ("left", "right"):
         raise ParameterError(f"uphill {uphill!r}: it must be 'left' or 'right'", "uphill")

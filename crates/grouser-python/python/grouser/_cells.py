@@ -19,29 +19,31 @@ _Document = TypeVar("_Document", bound=_Description)
 Cells = NDArray[np.object_]
 
 
-def cells_of(values: Any) -> Cells | None:
-    """Things as an array; None for numbers."""
-    if isinstance(values, np.ndarray):
-        return values.astype(object) if values.dtype.kind in "OUb" else None
-    if not _is_thing(values):
+def cells_of(values: Any, description: _Description, key: str) -> Cells | None:
+    """Things as an array, and whole numbers where the document has one under a key; None for other
+    numbers."""
+    found: Any = description._items
+    for part in key.split("."):
+        found = found.get(part) if isinstance(found, dict) else None
+    if isinstance(found, float):
         return None
-    return np.array(values, dtype=object)
+    array = as_array(values)
+    if array.dtype == object:
+        return array
+    is_whole = isinstance(found, int) and not isinstance(found, bool)
+    return number_cells(values) if is_whole else None
+
+
+def as_array(values: Any) -> NDArray[Any]:
+    """Numbers, or things as they are."""
+    array = np.asarray(values, dtype=object if _is_thing(values) else None)
+    return array.astype(object) if array.dtype.kind in "USb" else array
 
 
 def _is_thing(values: Any) -> bool:
     if isinstance(values, (list, tuple)):
         return any(_is_thing(it) for it in values)
     return isinstance(values, (str, bool, Mapping, os.PathLike, _Description))
-
-
-def whole_cells(description: _Description, key: str, values: Any) -> Cells | None:
-    """Whole numbers as an array, where the document has one under the key; else None."""
-    found: Any = description._items
-    for part in key.split("."):
-        found = found.get(part) if isinstance(found, dict) else None
-    if not isinstance(found, int) or isinstance(found, bool):
-        return None
-    return number_cells(np.asarray(values))
 
 
 def number_cells(values: Any) -> Cells:

@@ -122,8 +122,9 @@ _Asked = tuple[
     dict[str, _Floats],
     int,
     bool,
+    Sequence[tuple[int, str]],
 ]
-_Swept = tuple[list[tuple[dict[str, Any], int]], list[int], list[tuple[int, str]]]
+_Swept = list[dict[str, Any]]
 
 @final
 class Document:
@@ -532,7 +533,7 @@ def heading_map_sweep(
 def wheel_speeds_sweep(
     asked: _Asked, slope_deg: _Floats, most_speed_ratio: float
 ) -> _Swept: ...
-def mission_sweep(asked: _Asked) -> _Swept: ...
+def mission_sweep(asked: _Asked, ways: int, legs: int) -> _Swept: ...
 def simulated_wheel_test(
     soil: Document,
     wheel: Document,

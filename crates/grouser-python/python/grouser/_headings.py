@@ -17,7 +17,7 @@ from ._errors import ParameterError
 from ._gradients import Gradient, Keys, keys_of, of_columns
 from ._models import MODELS, ByModel, each_model
 from ._studies import columns_of, scenario_of, soil_of
-from ._sweeps import Sweep, Vary, entered, of_all, of_each, sweep_of
+from ._sweeps import Sweep, Vary, entered, of_each, sweep_of
 from ._verdicts import limits_of
 from ._wheels import Outside, Soils
 
@@ -170,57 +170,19 @@ class Headings(_Held, _tables.Tabular):
 
 @overload
 def heading(
-    scenario: Scenario | Source | None = None,
-    /,
-    *,
-    vary: Vary,
-    model: Literal["all"],
-    slope_deg: ArrayLike = ...,
-    steering: Literal["none", "crab"] = ...,
-    nominal: bool = ...,
-    samples: int = ...,
-    seed: int = ...,
-    rule: Mapping[str, float] | None = ...,
-    uncertainty: bool | None = ...,
-    outside: Outside = ...,
-    **changes: Any,
+    scenario: Scenario | Source | None = None, /, *, vary: Vary, model: Literal["all"], **asked: Any
 ) -> ByModel[Sweep]: ...
 
 
 @overload
 def heading(
-    scenario: Scenario | Source | None = None,
-    /,
-    *,
-    vary: Vary,
-    model: str | None = ...,
-    slope_deg: ArrayLike = ...,
-    steering: Literal["none", "crab"] = ...,
-    nominal: bool = ...,
-    samples: int = ...,
-    seed: int = ...,
-    rule: Mapping[str, float] | None = ...,
-    uncertainty: bool | None = ...,
-    outside: Outside = ...,
-    **changes: Any,
+    scenario: Scenario | Source | None = None, /, *, vary: Vary, **asked: Any
 ) -> Sweep: ...
 
 
 @overload
 def heading(
-    scenario: Scenario | Source | None = None,
-    /,
-    *,
-    model: Literal["all"],
-    slope_deg: ArrayLike = ...,
-    steering: Literal["none", "crab"] = ...,
-    nominal: bool = ...,
-    samples: int = ...,
-    seed: int = ...,
-    rule: Mapping[str, float] | None = ...,
-    gradients: Keys | None = ...,
-    uncertainty: bool | None = ...,
-    **changes: Any,
+    scenario: Scenario | Source | None = None, /, *, model: Literal["all"], **asked: Any
 ) -> ByModel[Headings]: ...
 
 
@@ -355,16 +317,16 @@ def heading(
         is_native = nominal or steering == "crab"
         taken = ("slope_deg",) if slope_deg is not _SLOPES or not is_native else ()
         asked = entered(
-            Scenario, scenario, changes, vary, outside, taken=taken, by_document=not is_native
+            Scenario, scenario, changes, vary, outside, taken, by_document=not is_native
         )
         slopes = line("slope_deg", slope_deg)
-        axes = {} if "slope_deg" in asked.flat else {"slope_deg": slopes}
+        axes = {} if "slope_deg" in asked.inputs else {"slope_deg": slopes}
         if is_native:
-            swept = of_all(asked, _core.heading_sweep, slopes, steering)
-            return sweep_of(asked, swept, axes, "heading", (*_HELD, "limit_slope_deg"))
-        settings = {"slope_deg": slopes, "samples": samples, "seed": seed, "rule": rule}
-        each = of_each(asked, lambda run: _rows_of(heading(run, **settings)))
-        return sweep_of(asked, each, axes, "heading", ("yaw_deg",))
+            swept = _core.heading_sweep(asked.native, slopes, steering)
+        else:
+            settings = {"slope_deg": slopes, "samples": samples, "seed": seed, "rule": rule}
+            swept = of_each(asked, lambda run: _rows_of(heading(run, **settings)))
+        return sweep_of(asked, swept, "heading", (*_HELD, "limit_slope_deg"), axes)
     changes = changes if model is None else {**changes, "model": model}
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
     sampling = None
@@ -482,19 +444,7 @@ class HeadingMap(_Held, _tables.Tabular):
 
 @overload
 def heading_map(
-    scenario: Scenario | Source | None = None,
-    /,
-    *,
-    vary: Vary,
-    soil: Soils | None = ...,
-    slope_deg: ArrayLike = ...,
-    course_deg: ArrayLike = ...,
-    rim_speed_m_s: float = ...,
-    uncertainty: bool = ...,
-    samples: int = ...,
-    seed: int = ...,
-    outside: Outside = ...,
-    **changes: Any,
+    scenario: Scenario | Source | None = None, /, *, vary: Vary, **asked: Any
 ) -> Sweep: ...
 
 
@@ -582,19 +532,18 @@ def heading_map(
         own = ("slope_deg",) if slope_deg is not _MAP_SLOPES or uncertainty else ()
         taken = ("course_deg", *own)
         asked = entered(
-            Scenario, scenario, keys, vary, outside, taken=taken, by_document=uncertainty
+            Scenario, scenario, keys, vary, outside, taken, by_document=uncertainty
         )
         axes = {"course_deg": courses, "slope_deg": slopes}
-        if "slope_deg" in asked.flat:
-            del axes["slope_deg"]
-        names = (*_tables.COLUMNS["heading"], "limit_slope_deg")
-        if not uncertainty:
-            swept = of_all(asked, _core.heading_map_sweep, slopes, courses, speed)
-            return sweep_of(asked, swept, axes, "heading", names)
+        axes = {name: it for name, it in axes.items() if name not in asked.inputs}
         settings: dict[str, Any] = {"slope_deg": slopes, "course_deg": courses, "seed": seed}
         settings |= {"rim_speed_m_s": speed, "uncertainty": True, "samples": samples}
-        each = of_each(asked, lambda run: heading_map(run, **settings)._table())
-        return sweep_of(asked, each, axes, "heading", names)
+        if uncertainty:
+            swept = of_each(asked, lambda run: heading_map(run, **settings)._table())
+        else:
+            swept = _core.heading_map_sweep(asked.native, slopes, courses, speed)[:1]
+        names = (*_tables.COLUMNS["heading"], "limit_slope_deg")
+        return sweep_of(asked, swept, "heading", names, axes)
     one = scenario_of(scenario, changes)
     several = isinstance(soil, Sequence) and not isinstance(soil, str)
     soils: list[Any] = list(soil) if several else [soil]  # type: ignore[arg-type]

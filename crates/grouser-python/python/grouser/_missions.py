@@ -16,7 +16,7 @@ from ._arrays import Floats, whole_number
 from ._descriptions import Mission, Source
 from ._errors import ParameterError
 from ._studies import Trajectory, columns_of, trajectory_of
-from ._sweeps import Sweep, Vary, entered, of_all, of_each, sweep_of
+from ._sweeps import Sweep, Vary, entered, of_each, sweep_of
 from ._wheels import Outside
 
 if TYPE_CHECKING:
@@ -271,16 +271,7 @@ _ROW = tuple(one.name for one in fields(DrivenMission)[5:-3])
 
 
 @overload
-def mission(
-    mission: Mission | Source,
-    /,
-    *,
-    vary: Vary,
-    samples: int | None = ...,
-    seed: int = ...,
-    outside: Outside = ...,
-    **changes: Any,
-) -> Sweep: ...
+def mission(mission: Mission | Source, /, *, vary: Vary, **asked: Any) -> Sweep: ...
 
 
 @overload
@@ -386,29 +377,26 @@ def _sweep(
     seed: int,
 ) -> Sweep:
     """Missions over what varies: with samples one after the other, with the risk of each."""
-    is_sampled = samples is not None
-    asked = entered(Mission, source, changes, vary, outside, by_document=is_sampled)
-    plans = (it.to_dict() for it in asked.documents)
+    asked = entered(Mission, source, changes, vary, outside, by_document=samples is not None)
+    plans = [it.to_dict() for it in asked.documents]
     ways = {tuple(way["name"] for way in plan.get("alternative", ())) for plan in plans}
     if len(ways) > 1:
         raise ParameterError("vary: the missions differ in their alternatives", "vary")
     names = next(iter(ways), ())
+    axes: dict[str, Any] = {"alternative": names} if names else {}
 
     def ends(plan: Mission) -> dict[str, Any]:
         found = mission(plan, samples=samples, seed=seed)
-        each = list(found.alternatives.values()) or [found]
-        rows = [{**way._row(), **way.risk} for way in each]
+        rows = [{**way._row(), **way.risk} for way in found.alternatives.values() or [found]]
         return {name: [row.get(name) for row in rows] for name in rows[0]}
 
-    found = of_each(asked, ends) if is_sampled else of_all(asked, _core.mission_sweep)
-    axes: dict[str, Any] = {"alternative": names} if names else {}
-    if not names:
-        found[0][0][0].pop("alternative", None)
-    numbers = _tables.COLUMNS["mission"]
-    if is_sampled:
-        return sweep_of(asked, found, axes, "mission", numbers)
-    legs = {**axes, "leg": np.arange(1, 1 + found[0][1][1] // max(len(names), 1))}
-    return sweep_of(asked, found, axes, "mission", numbers, ("legs", legs))
+    if samples is not None:
+        return sweep_of(asked, of_each(asked, ends), "mission", _tables.COLUMNS["mission"], axes)
+    each = (it for plan in plans for it in (plan, *plan.get("alternative", ())))
+    most = max((len(it.get("leg", ())) for it in each), default=0)
+    swept = _core.mission_sweep(asked.native, max(len(names), 1), most)
+    legs = {**axes, "leg": np.arange(1, most + 1)}
+    return sweep_of(asked, swept, "mission", _tables.COLUMNS["mission"], axes, legs=legs)
 
 
 def _driven(plan: Mission, found: Mapping[str, Any], alternatives: Alternatives) -> DrivenMission:

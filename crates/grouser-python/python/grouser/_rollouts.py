@@ -102,6 +102,9 @@ class Rollout(_tables.Entries):
         """The shape of every field."""
         return self.outcome.shape
 
+    def _docs(self) -> Mapping[str, str]:
+        return _tables.DOCS["sample"]
+
     def _results(self) -> dict[str, Any]:
         ends = {**columns_of(self, SAMPLE), **standing_of(self)}
         return {"outcome": self.outcome, "message": self.message, **ends}
@@ -241,6 +244,7 @@ def rollout(
         asked.flat,
         index.size,
         outside_is_nan(outside),
+        (),
     )
     found = _core.rollout(entries, trajectories, keys_of(gradients))
     shape = asked.shape

@@ -47,16 +47,12 @@ def arrays_of(table: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
 def variable(dims: tuple[str, ...], name: str, values: Any) -> tuple[Any, ...]:
     """A variable for xarray, with its unit where it is a number."""
     array = np.asarray(values)
+    if array.dtype == object:
+        # No format of files has None.
+        array = np.array(["" if it is None else it for it in array.flat], object).reshape(array.shape)
     if array.dtype.kind != "f":
         return dims, array
     return dims, array, {"units": unit_of(name)}
-
-
-def without_none(values: NDArray[Any]) -> NDArray[Any]:
-    """Words with nothing in the place of None, which no file format has."""
-    if values.dtype != object:
-        return values
-    return np.array(["" if it is None else str(it) for it in values.ravel()]).reshape(values.shape)
 
 
 def described(
@@ -199,9 +195,20 @@ class Entries(Tabular):
     def __len__(self) -> int:
         return int(np.prod(self.shape))
 
+    def _docs(self) -> Mapping[str, str]:
+        """What each column is."""
+        return DOCS["wheel"]
+
+    def _axes(self) -> Mapping[str, NDArray[Any]]:
+        """The last dimensions, where a study has some by itself, with their coordinates."""
+        return {}
+
     def _table(self) -> dict[str, Any]:
-        inputs = {name: np.broadcast_to(it, self.shape) for name, it in self.inputs.items()}
-        return {**inputs, **self._results()}
+        axes = self._axes()
+        last, mesh = (1,) * len(axes), np.meshgrid(*axes.values(), indexing="ij")
+        whole = {name: it.reshape(it.shape + last) for name, it in self.inputs.items()}
+        whole |= dict(zip(axes, mesh))
+        return {name: np.broadcast_to(it, self.shape) for name, it in whole.items()} | self._results()
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each entry, in the order of the flattened fields: inputs first,
@@ -209,28 +216,30 @@ class Entries(Tabular):
         return frame(self._table())
 
     def to_xarray(self, dims: Sequence[str] | None = None) -> xarray.Dataset:
-        """A dataset with units in the attributes. Inputs are coordinates, each over the dimensions
-        along which it was given: with ``dims=["load_n", "slip_ratio"]`` loads and slip ratios index
-        the dimensions of their names.
+        """A dataset with units and what each column is in the attributes, as CF has them; netCDF keeps
+        it. Inputs are coordinates, each over the dimensions along which it was given: with
+        ``dims=["load_n", "slip_ratio"]`` loads and slip ratios index the dimensions of their names.
 
         Parameters
         ----------
         dims : sequence of str, optional
             Names of the dimensions; by default ``dim_0``, ``dim_1`` …, and ``run`` for runs in a row.
+            The axes that a study has by itself follow under their own names.
         """
-        names = self._dims(len(self.shape), dims)
-        results = {name: it for name, it in self._results().items() if name not in self.inputs}
-        return with_inputs(dataset(names, results), names, self.inputs)
-
-    def _dims(self, count: int, dims: Sequence[str] | None) -> tuple[str, ...]:
-        """The names of so many dimensions."""
+        axes = self._axes()
+        count = len(self.shape) - len(axes)
         usual = (self._DIM,) if count == 1 else tuple(f"dim_{k}" for k in range(count))
         names = usual if dims is None else tuple(dims)
         if len(names) != count:
             raise ParameterError(
                 f"dims has {len(names)} names, the fields have {count} dimensions", "dims"
             )
-        return names
+        results = {name: it for name, it in self._results().items() if name not in self.inputs}
+        data = dataset((*names, *axes), results, axes, {"Conventions": "CF-1.11"})
+        data = with_inputs(data, names, self.inputs)
+        for name, one in data.variables.items():
+            one.attrs["long_name"] = self._docs().get(str(name), name)
+        return data
 
 
 class Band(Tabular):

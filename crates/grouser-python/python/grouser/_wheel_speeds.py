@@ -14,7 +14,7 @@ from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._models import ByModel, each_model
 from ._studies import columns_of, scenario_of
-from ._sweeps import Sweep, Vary, entered, of_all, sweep_of
+from ._sweeps import Sweep, Vary, entered, sweep_of
 from ._wheels import Outside
 
 if TYPE_CHECKING:
@@ -210,41 +210,19 @@ def _with_wheels(
 
 @overload
 def wheel_speeds(
-    scenario: Scenario | Source | None = None,
-    /,
-    *,
-    vary: Vary,
-    model: Literal["all"],
-    slope_deg: ArrayLike = ...,
-    most_speed_ratio: float = ...,
-    outside: Outside = ...,
-    **changes: Any,
+    scenario: Scenario | Source | None = None, /, *, vary: Vary, model: Literal["all"], **asked: Any
 ) -> ByModel[Sweep]: ...
 
 
 @overload
 def wheel_speeds(
-    scenario: Scenario | Source | None = None,
-    /,
-    *,
-    vary: Vary,
-    model: str | None = ...,
-    slope_deg: ArrayLike = ...,
-    most_speed_ratio: float = ...,
-    outside: Outside = ...,
-    **changes: Any,
+    scenario: Scenario | Source | None = None, /, *, vary: Vary, **asked: Any
 ) -> Sweep: ...
 
 
 @overload
 def wheel_speeds(
-    scenario: Scenario | Source | None = None,
-    /,
-    *,
-    model: Literal["all"],
-    slope_deg: ArrayLike = ...,
-    most_speed_ratio: float = ...,
-    **changes: Any,
+    scenario: Scenario | Source | None = None, /, *, model: Literal["all"], **asked: Any
 ) -> ByModel[WheelSpeeds]: ...
 
 
@@ -340,17 +318,12 @@ def wheel_speeds(
     slopes, most = line("slope_deg", slope_deg), number("most_speed_ratio", most_speed_ratio)
     if vary is not None:
         taken = ("slope_deg",) if slope_deg is not _SLOPES else ()
-        asked = entered(Scenario, scenario, changes, vary, outside, taken=taken)
-        swept = of_all(asked, _core.wheel_speeds_sweep, slopes, most)
-        of_slopes: dict[str, Any] = {} if "slope_deg" in asked.flat else {"slope_deg": slopes}
-        return sweep_of(
-            asked,
-            swept,
-            {**of_slopes, "wheels": _ON_SLOPES},
-            "wheel_speeds",
-            _RESULTS,
-            ("limits", {"wheels": (*_ON_SLOPES, "uphill-reversed")}),
-        )
+        asked = entered(Scenario, scenario, changes, vary, outside, taken)
+        swept = _core.wheel_speeds_sweep(asked.native, slopes, most)
+        axes = {"slope_deg": slopes, "wheels": _ON_SLOPES}
+        axes = {name: it for name, it in axes.items() if name not in asked.inputs}
+        ends = {"wheels": (*_ON_SLOPES, "uphill-reversed")}
+        return sweep_of(asked, swept, "wheel_speeds", _RESULTS, axes, limits=ends)
     run = scenario_of(scenario, changes)
     found, limits, names = _core.wheel_speeds(run._document, slopes, most)
     shape = (len(slopes), len(_ON_SLOPES))

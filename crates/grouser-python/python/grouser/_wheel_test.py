@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, Union, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
 from ._arrays import Floats, line, number, varied, whole_number
-from ._cells import cells_of
+from ._cells import as_array
 from ._descriptions import Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
 from ._models import ByModel, each_model
@@ -254,43 +254,18 @@ class SimulatedWheelTest(_tables.Tabular):
         return f"<SimulatedWheelTest of {shape} loads, angles, ratios, trials>"
 
 
-#: What a wheel test is, as it is asked for.
-_AnyTest = Union[
-    WheelTest,
-    SimulatedWheelTest,
-    Sweep,
-    ByModel[WheelTest],
-    ByModel[SimulatedWheelTest],
-    ByModel[Sweep],
-]
-
-
 @overload
 def wheel_test(  # type: ignore[overload-overlap]
-    soil: Soils = ...,
-    wheel: Wheels = ...,
-    *,
-    load_n: ArrayLike,
-    slip_ratio: ArrayLike,
-    slip_angle_deg: ArrayLike = ...,
-    gravity_m_s2: float = ...,
-    model: Literal["all"],
-    vary: Vary,
+    soil: Soils = ..., wheel: Wheels = ..., *, load_n: ArrayLike, slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = ..., gravity_m_s2: float = ..., model: Literal["all"], vary: Vary,
     outside: Outside = ...,
 ) -> ByModel[Sweep]: ...
 
 
 @overload
 def wheel_test(
-    soil: Soils = ...,
-    wheel: Wheels = ...,
-    *,
-    load_n: ArrayLike,
-    slip_ratio: ArrayLike,
-    slip_angle_deg: ArrayLike = ...,
-    gravity_m_s2: float = ...,
-    model: str | None = ...,
-    vary: Vary,
+    soil: Soils = ..., wheel: Wheels = ..., *, load_n: ArrayLike, slip_ratio: ArrayLike,
+    slip_angle_deg: ArrayLike = ..., gravity_m_s2: float = ..., model: str | None = ..., vary: Vary,
     outside: Outside = ...,
 ) -> Sweep: ...
 
@@ -389,7 +364,7 @@ def wheel_test(
     seed: int = 1,
     vary: Vary | None = None,
     outside: Outside = "raise",
-) -> _AnyTest:
+) -> WheelTest | SimulatedWheelTest | Sweep | ByModel[Any]:
     """Simulates a wheel on a test stand: every load with every slip angle and every slip ratio
     ([FourWheel], section 4 and Fig. 7).
 
@@ -526,9 +501,7 @@ def _sweep(
     """Wheel tests over what varies, whose axes stand before those of the test."""
 
     def ahead(values: Any) -> Any:
-        cells = cells_of(values)
-        whole: Any = np.asarray(values) if cells is None else cells
-        return whole[..., None, None, None]
+        return as_array(values)[..., None, None, None]
 
     several = (list, tuple, np.ndarray)
     stand: list[Any] = [ahead(it) if isinstance(it, several) else it for it in (soil, wheel)]
@@ -548,4 +521,4 @@ def _sweep(
     inputs = {name: it[..., 0, 0, 0] if it.ndim else it for name, it in inputs.items()}
     columns = {name: it for name, it in wheels._results().items() if name not in axes}
     columns["status"] = wheels.messages
-    return Sweep(columns, axes, inputs, wheels.shape[:-3], {}, _tables.DOCS["wheel"])
+    return Sweep(columns, axes, inputs, wheels.shape[:-3], {}, "wheel")

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _shown, _tables
 from ._arrays import Broadcast, Floats, broadcast, number, varied
-from ._cells import cells_of, documents_of, labels_of, numbered, whole_cells
+from ._cells import cells_of, documents_of, labels_of, numbered
 from ._descriptions import Rover, Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
 from ._gradients import Gradient, Keys, keys_of, of_rows
@@ -357,10 +357,8 @@ class _Stand:
         """Soils or wheels with what varies of them that is no number, taken from ``vary``."""
         cells = {}
         for name in [name for name in self._vary if name.startswith(prefix)]:
-            values, key = self._vary[name], name[len(prefix) :]
-            found = cells_of(values)
-            if found is None:
-                found = whole_cells(things[0], key, values)
+            key = name[len(prefix) :]
+            found = cells_of(self._vary[name], things[0], key)
             if found is not None:
                 cells[key] = found
                 self._names[name] = labels_of(found)
