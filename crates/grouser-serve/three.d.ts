@@ -9,10 +9,15 @@ declare module "three" {
     add(other: Vector3): this;
     set(x: number, y: number, z: number): this;
     copy(other: Vector3): this;
+    length(): number;
+    normalize(): this;
     setFromSphericalCoords(radius: number, phi: number, theta: number): this;
   }
   export class Euler {
     constructor(x: number, y: number, z: number, order?: string);
+  }
+  export class Quaternion {
+    setFromUnitVectors(from: Vector3, to: Vector3): this;
   }
   export class Color {
     constructor(colour: string);
@@ -36,6 +41,9 @@ declare module "three" {
     children: Object3D[];
     parent: Object3D | null;
     position: Vector3;
+    quaternion: Quaternion;
+    scale: Vector3;
+    visible: boolean;
     renderOrder: number;
     geometry?: { dispose(): void };
     material?: Material;

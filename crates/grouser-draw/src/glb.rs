@@ -4,6 +4,7 @@
 //! slope frame [m]; over ground with heights it is below the node `map`, seen from the start of the
 //! run. Source of the format: Khronos Group, "glTF 2.0 Specification" (2021).
 
+mod arrow;
 mod file;
 mod solid;
 
@@ -15,6 +16,7 @@ use grouser_core::vehicle::Mount;
 use grouser_core::wheel::Wheel;
 use serde_json::json;
 
+use self::arrow::Arrows;
 use self::file::File;
 use self::solid::Solid;
 use crate::animation::Animation;
@@ -34,19 +36,27 @@ const PIECES: usize = 60;
 
 impl Animation {
     /// The run as binary glTF 2.0: body, wheels with their grousers, the ground with contour lines,
-    /// and tracks that appear as they are made. A second of it is a second of the run, or as many
-    /// as `extras` of its animation says.
+    /// tracks that appear as they are made, and arrows for the soil's forces on the wheels. A second
+    /// of it is a second of the run, or as many as `extras` of its animation says, which has the
+    /// scale of the arrows, too.
     #[must_use]
     pub fn to_glb(&self) -> Vec<u8> {
         let mut file = File::new();
         let times = self.samples();
         let seconds: Vec<f64> = times.iter().map(|time| time / self.speed).collect();
         let input = file.numbers("SCALAR", &seconds, true, None);
+        let pictures: Vec<f64> = self.times.iter().map(|time| time / self.speed).collect();
+        let pictures = file.numbers("SCALAR", &pictures, true, None);
+        // Of rovers beside each other all arrows have one scale.
+        let scales = self.actors.iter().map(Actor::newtons_per_metre);
+        let newtons_per_metre = scales.fold(0.0, f64::max);
         let mut below = vec![self.ground(&mut file)];
         below.extend(self.tracks(&mut file));
         for (actor, row) in self.actors.iter().zip(&self.rows) {
-            let rover = rover(&mut file, actor, &row.name, &times, input);
-            below.push(rover);
+            let at = |times: &[f64]| times.iter().map(|time| actor.motion.at(*time)).collect();
+            let [poses, in_pictures]: [Vec<Pose>; 2] = [at(&times), at(&self.times)];
+            let arrows = Arrows { poses: &in_pictures, input: pictures, newtons_per_metre };
+            below.push(rover(&mut file, actor, &row.name, (&poses, input), &arrows));
         }
         let (name, slope) = match self.scene.ground {
             Around::Plane { slope, .. } => ("slope", slope),
@@ -58,7 +68,11 @@ impl Animation {
             "rotation": [sin, 0.0, 0.0, cos],
             "children": below,
         }));
-        file.finish(root, &self.title, self.speed)
+        let extras = json!({
+            "run_seconds_per_second": self.speed,
+            "newtons_per_metre": newtons_per_metre,
+        });
+        file.finish(root, &self.title, &extras)
     }
 
     /// Times of the samples [s]: those of the pictures, and as many between them as the wheels'
@@ -176,9 +190,16 @@ fn footing(actor: &Actor, pose: &Pose, mount: &Mount, index: usize) -> (Vec3, Ve
     (foot, turned(axle))
 }
 
-/// A rover with its wheels and their motion.
-fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize) -> usize {
-    let poses: Vec<Pose> = times.iter().map(|time| actor.motion.at(*time)).collect();
+/// A rover with its wheels, their motion, and the arrows of the forces on them.
+///
+/// * `motion`: the rover in each sample, and the accessor of the samples' times
+fn rover(
+    file: &mut File,
+    actor: &Actor,
+    name: &str,
+    (poses, input): (&[Pose], usize),
+    arrows: &Arrows<'_>,
+) -> usize {
     let likeness = actor.likeness();
     let mut body = Solid::default();
     for block in [&likeness.body, &likeness.mast, &likeness.head] {
@@ -195,14 +216,15 @@ fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize
     let panel = file.mesh("panel", &panel, Role::Panel);
     let panel = file.node(json!({ "name": "panel", "mesh": panel }));
     let mut children = vec![panel];
-    let mut known: Vec<(Wheel, usize)> = Vec::new();
+    let mut known: Vec<(Wheel, [usize; 2])> = Vec::new();
     for (index, mount) in actor.mounts().iter().enumerate() {
         let wheel = mount.unit.wheel;
-        let found = known.iter().find(|(other, _)| *other == wheel).map(|(_, mesh)| *mesh);
-        let mesh = found.unwrap_or_else(|| {
-            let mesh = file.wheel(&wheel);
-            known.push((wheel, mesh));
-            mesh
+        let found = known.iter().find(|(other, _)| *other == wheel).map(|(_, meshes)| *meshes);
+        let [mesh, arrow] = found.unwrap_or_else(|| {
+            let arrow = Solid::arrow(wheel.radius);
+            let meshes = [file.wheel(&wheel), file.mesh("force", &arrow, Role::Force)];
+            known.push((wheel, meshes));
+            meshes
         });
         let turned = poses.iter().flat_map(|pose| {
             // Turning forward is turning about the axle, to the left, by the right-hand rule.
@@ -212,7 +234,8 @@ fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize
         let spinning = file.node(json!({ "name": format!("{} wheel", mount.name), "mesh": mesh }));
         let output = file.numbers("VEC4", &turned.collect::<Vec<_>>(), false, None);
         file.channel(spinning, "rotation", [input, output], "LINEAR");
-        let mut steered = json!({ "name": mount.name, "children": [spinning] });
+        let arrow = arrows.node(file, arrow, mount, index);
+        let mut steered = json!({ "name": mount.name, "children": [spinning, arrow] });
         // Over ground with heights the axle goes with the suspension.
         let is_still = mount.steering_axis.is_none() && poses[0].wheels[index].standing.is_none();
         if is_still {
@@ -228,7 +251,7 @@ fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize
         file.channel(steered, "translation", [input, output], "LINEAR");
         if !is_still {
             let wheel = |pose: &Pose| pose.wheels[index];
-            let angles = rotations(&poses, |pose| match wheel(pose).standing {
+            let angles = rotations(poses, |pose| match wheel(pose).standing {
                 Some(StandingWheel { forward, axle, .. }) => {
                     quaternion_to([forward, axle, forward.cross(&axle)])
                 }
@@ -246,7 +269,7 @@ fn rover(file: &mut File, actor: &Actor, name: &str, times: &[f64], input: usize
     });
     let output = file.numbers("VEC3", &places.collect::<Vec<_>>(), false, None);
     file.channel(node, "translation", [input, output], "LINEAR");
-    let rotations = rotations(&poses, |pose| match pose.leaning {
+    let rotations = rotations(poses, |pose| match pose.leaning {
         Some(_) => quaternion_to(pose.axes()),
         None => about_z(pose.yaw),
     });

@@ -26,6 +26,7 @@ mod animation;
 mod camera;
 pub mod chart;
 pub mod drawings;
+mod forces;
 mod form;
 mod gif;
 mod glb;
@@ -52,6 +53,7 @@ mod svg;
 mod title;
 
 pub use animation::Animation;
+pub use forces::newtons_per_metre;
 pub use form::{Form, UnknownEnding};
 pub use mp4::VideoError;
 pub use outline::{draw_outline, reach};

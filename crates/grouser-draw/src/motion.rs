@@ -47,7 +47,7 @@ pub struct WheelPose {
     pub sinkage: f64,
     /// Slip ratio [-].
     pub slip_ratio: f64,
-    /// The soil's force on it, in the wheel frame [N].
+    /// The soil's force on it, in the wheel frame, which is that of its ground [N].
     pub force: Vec3,
     /// Where it is on ground with heights.
     pub standing: Option<StandingWheel>,
@@ -62,6 +62,8 @@ pub struct StandingWheel {
     pub forward: Vec3,
     /// Along its axle, to the left.
     pub axle: Vec3,
+    /// Out of the ground: upright to the axle as well, unless the ground falls across the wheel.
+    pub normal: Vec3,
 }
 
 /// Follows a run record by record, and says where rover and wheels are.
@@ -140,6 +142,7 @@ impl Follower {
                     hub: in_body(&wheel.hub),
                     forward: in_body(&wheel.forward),
                     axle: in_body(&wheel.axle),
+                    normal: in_body(&wheel.normal),
                 });
             }
         }
@@ -245,6 +248,16 @@ pub fn quaternion_to([x, y, z]: [Vec3; 3]) -> [f64; 4] {
     q.map(|part| 0.5 * part / size.sqrt())
 }
 
+impl WheelPose {
+    /// The soil's force on it along its forward direction, its axle and upright to both [N].
+    #[must_use]
+    pub fn force_in_wheel(&self) -> Vec3 {
+        let Some(standing) = &self.standing else { return self.force };
+        let [forward, left, normal] = standing.ground_in_wheel();
+        forward * self.force.x + left * self.force.y + normal * self.force.z
+    }
+}
+
 impl StandingWheel {
     fn between(&self, next: &Self, share: f64) -> Self {
         let between = |a: Vec3, b: Vec3| a + share * (b - a);
@@ -253,7 +266,18 @@ impl StandingWheel {
             hub: between(self.hub, next.hub),
             forward: direction(self.forward, next.forward),
             axle: direction(self.axle, next.axle),
+            normal: direction(self.normal, next.normal),
         }
+    }
+
+    /// Forward, to the left on the ground and out of it, the axes of the soil's force, each along
+    /// the wheel's forward direction, its axle and upright to both.
+    #[must_use]
+    pub fn ground_in_wheel(&self) -> [Vec3; 3] {
+        let Self { forward, axle, normal, .. } = self;
+        let up = forward.cross(axle);
+        let in_wheel = |it: &Vec3| Vec3::new(it.dot(forward), it.dot(axle), it.dot(&up));
+        [*forward, normal.cross(forward), *normal].each_ref().map(in_wheel)
     }
 }
 

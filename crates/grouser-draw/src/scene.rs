@@ -9,6 +9,7 @@ use grouser_core::units::{Vec2, Vec3};
 use grouser_core::vehicle::Mount;
 
 use crate::camera::Camera;
+use crate::forces::newtons_per_metre;
 use crate::marks::{Line, Mark, arrow, hull, over_ground};
 use crate::motion::{Motion, Pose};
 use crate::relief::Surface;
@@ -33,13 +34,21 @@ pub(crate) struct Actor {
     likeness: Likeness,
     /// Where its origin is in the slope frame [m].
     lane: Vec3,
+    /// Newtons of a metre of arrow in three dimensions [N/m].
+    newtons_per_metre: f64,
 }
 
 impl Actor {
     pub(crate) fn new(motion: Motion, scenario: &Scenario) -> Self {
         let rover = &scenario.rover;
         let likeness = Likeness::of(rover);
-        Self { motion, mounts: rover.mounts().to_vec(), likeness, lane: Vec3::zeros() }
+        Self {
+            motion,
+            mounts: rover.mounts().to_vec(),
+            likeness,
+            lane: Vec3::zeros(),
+            newtons_per_metre: newtons_per_metre(scenario),
+        }
     }
 
     /// The places that it visits, of its centre [m].
@@ -59,6 +68,10 @@ impl Actor {
 
     pub(crate) fn lane(&self) -> Vec3 {
         self.lane
+    }
+
+    pub(crate) fn newtons_per_metre(&self) -> f64 {
+        self.newtons_per_metre
     }
 
     fn wheels<'a>(&'a self, pose: &'a Pose) -> impl Iterator<Item = PlacedWheel> + 'a {

@@ -1,6 +1,8 @@
 //! What an animation promises: the same bytes for the same run, files that other programs read, and
 //! pictures of whatever becomes of a rover.
 
+mod gltf;
+
 use std::path::Path;
 
 use grouser::document::{Kind, LoadedScenario, Overrides, Source, read_scenario};
@@ -8,6 +10,8 @@ use grouser::simulation::{Outcome, Run, Trajectory};
 use grouser_draw::style::{Ground, Role};
 use grouser_draw::{Animation, Form, Shown};
 use serde_json::Value;
+
+use gltf::{chunks, number, numbers};
 
 fn scenario(settings: &[&str]) -> LoadedScenario {
     let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
@@ -99,40 +103,6 @@ fn a_page_needs_nothing_from_elsewhere_and_has_controls_with_names() {
     assert_eq!(data["clock"][20], "2.0 s");
 }
 
-/// The two chunks of a glTF file.
-fn chunks(file: &[u8]) -> (Value, &[u8]) {
-    let word = |at: usize| {
-        let bytes: [u8; 4] = file[at..at + 4].try_into().expect("four bytes");
-        u32::from_le_bytes(bytes) as usize
-    };
-    assert_eq!((&file[..4], word(4), word(8)), (&b"glTF"[..], 2, file.len()));
-    let text = word(12);
-    assert!(&file[16..20] == b"JSON" && text.is_multiple_of(4));
-    let start = 20 + text;
-    assert_eq!((&file[start + 4..start + 8], word(start)), (&b"BIN\0"[..], file.len() - start - 8));
-    (serde_json::from_slice(&file[20..start]).expect("JSON"), &file[start + 8..])
-}
-
-fn number(value: &Value) -> usize {
-    value.as_u64().and_then(|number| usize::try_from(number).ok()).expect("a whole number")
-}
-
-/// The numbers of an accessor, and how many make one of its elements.
-fn numbers(document: &Value, bytes: &[u8], accessor: usize) -> (Vec<f32>, usize) {
-    let accessor = &document["accessors"][accessor];
-    assert_eq!(number(&accessor["componentType"]), 5126);
-    let size = match accessor["type"].as_str() {
-        Some("VEC3") => 3,
-        Some("VEC4") => 4,
-        _ => 1,
-    };
-    let view = &document["bufferViews"][number(&accessor["bufferView"])];
-    let (start, length) = (number(&view["byteOffset"]), number(&view["byteLength"]));
-    assert!(start.is_multiple_of(4) && length == 4 * size * number(&accessor["count"]));
-    let values = bytes[start..start + length].as_chunks::<4>().0;
-    (values.iter().map(|bytes| f32::from_le_bytes(*bytes)).collect(), size)
-}
-
 #[test]
 fn a_scene_in_three_dimensions_is_valid_gltf() {
     let (animation, run) = short();
@@ -184,10 +154,10 @@ fn a_scene_in_three_dimensions_is_valid_gltf() {
         }
         paths.push((path.to_owned(), channel["target"]["node"].clone(), values));
     }
-    // Of the rover and of four wheels; tracks appear by their size.
+    // Of the rover, of four wheels and of their arrows; tracks appear by their size.
     let count = |path: &str| paths.iter().filter(|(other, ..)| other == path).count();
-    assert_eq!((count("translation"), count("rotation")), (5, 5));
-    assert!(count("scale") > 3);
+    assert_eq!((count("translation"), count("rotation")), (9, 9));
+    assert!(count("scale") > 7);
     // The rover ends where its run does.
     let nodes = document["nodes"].as_array().expect("nodes");
     let rover = nodes.iter().position(|node| node["name"] == "rover").expect("the rover");

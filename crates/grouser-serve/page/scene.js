@@ -18,6 +18,9 @@ const DRAG = Math.PI;
 /** How much of what is under the ground is hidden by what: wheels are seen in their soil. */
 const HIDES = /** @type {Record<string, number>} */ ({ soil: 0.6, track: 0.5 });
 
+/** The names of wheels. */
+const WHEEL = /[ _]wheel$/;
+
 /** What the keys do to the view: how far it turns around and down, and how much nearer it goes. */
 const KEYS = /** @type {Record<string, [number, number, number]>} */ ({
   ArrowLeft: [-STEP.turn, 0, 1], ArrowRight: [STEP.turn, 0, 1], ArrowUp: [0, -STEP.turn, 1], ArrowDown: [0, STEP.turn, 1],
@@ -90,13 +93,26 @@ export class DriveScene {
       this.follow.setAttribute("aria-pressed", String(this.isFollowing));
       this.frame();
     } }, ["Follow the rover"]);
+    /** @type {import("three").Object3D[]} the arrows of the wheels' forces, in the wheels' order */
+    this.arrows = [];
+    /** The force of an arrow of 1 m [N]. */
+    this.newtons = 0;
+    this.hasForces = true;
+    this.scale = element("span", { id: "force-scale" });
+    this.forces = element("label", { class: "box", title: "The soil's force on each wheel, from the ground under it" }, [
+      element("input", { type: "checkbox", id: "forces", checked: true, onchange: (/** @type {any} */ event) => {
+        this.hasForces = event.target.checked;
+        this.showForces();
+        this.draw();
+      } }), " Forces",
+    ]);
     this.again = element("button", { type: "button", onclick: () => this.frame() }, ["Reset the view"]);
     this.place = element("div", { class: "stage" });
     this.words = element("p", { class: "setup", id: "scene-words" });
     this.help = element("figcaption", {}, [helpOf("the arrow keys")]);
     this.element = element("figure", { class: "scene", "aria-label": "The drive in three dimensions", "aria-busy": "false", hidden: true }, [
       this.place,
-      element("div", { class: "choice" }, [this.follow, this.again]),
+      element("div", { class: "choice" }, [this.follow, this.again, this.forces, this.scale]),
       this.words,
       this.help,
     ]);
@@ -147,6 +163,14 @@ export class DriveScene {
         material.opacity = HIDES[material.name] ?? 1;
       });
       stage.scene.add(root);
+      this.arrows = partsOf(root, /^force[ _]/);
+      for (const arrow of this.arrows) {
+        // They begin under wheels, which would hide them, and are drawn after the soil.
+        arrow.renderOrder = 9;
+        if (arrow.material) Object.assign(arrow.material, { depthTest: false, transparent: true });
+      }
+      this.newtons = Number(clip?.userData["newtons_per_metre"] ?? 0);
+      this.showForces();
       if (clip) {
         this.pace = Number(clip.userData["run_seconds_per_second"] ?? 1);
         this.mixer = new three.AnimationMixer(root);
@@ -266,17 +290,25 @@ export class DriveScene {
     this.draw();
   }
 
+  /** Shows the arrows or not, and says their scale. */
+  showForces() {
+    for (const arrow of this.arrows) arrow.visible = this.hasForces;
+    this.scale.textContent = this.hasForces && this.arrows.length ? `Arrows are the soil's forces on the wheels: 1 m of arrow = ${four(this.newtons)} N` : "";
+  }
+
   /**
-   * The wheels of a rover.
-   * @param {import("three").Object3D} rover
+   * Has the arrows point as a record has the forces.
+   * @param {Record<string, any>[]} wheels
+   * @param {Three} three
    */
-  wheelsOf(rover) {
-    /** @type {import("three").Object3D[]} */
-    const wheels = [];
-    rover.traverse((part) => {
-      if (/[ _]wheel$/.test(part.name)) wheels.push(part);
-    });
-    return wheels;
+  point(wheels, { Vector3 }) {
+    for (const [place, arrow] of this.arrows.entries()) {
+      const force = new Vector3(...["drawbar_pull_n", "side_force_n", "normal_force_n"].map((of) => wheels[place]?.[of] ?? 0));
+      const length = force.length() / this.newtons;
+      // One that has no size has no direction, either.
+      arrow.scale.set(1, 1, length || 1e-9);
+      if (length) arrow.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), force.normalize());
+    }
   }
 
   /**
@@ -292,9 +324,10 @@ export class DriveScene {
     const angle = (/** @type {string} */ of) => Math.PI / 180 * (record[of] ?? 0);
     rover.position.set(record["x_m"], record["y_m"], record["z_m"] ?? this.height);
     rover.setRotationFromEuler(new three.Euler(angle("roll_deg"), -angle("pitch_deg"), angle("yaw_deg"), "ZYX"));
-    for (const [place, wheel] of this.wheelsOf(rover).entries()) {
+    for (const [place, wheel] of partsOf(rover, WHEEL).entries()) {
       wheel.setRotationFromEuler(new three.Euler(0, record["turned_rad"]?.[place] ?? 0, 0));
     }
+    this.point(record["wheels"] ?? [], three);
     this.follows(rover);
     this.tell(rover);
     this.draw();
@@ -324,7 +357,7 @@ export class DriveScene {
    * @param {import("three").Object3D} rover
    */
   tell(rover) {
-    const wheels = this.wheelsOf(rover);
+    const wheels = partsOf(rover, WHEEL);
     const axes = /** @type {("x" | "y" | "z")[]} */ (["x", "y", "z"]);
     this.words.replaceChildren(
       "A rover with ", element("span", { "data-column": "scene-wheels" }, [String(wheels.length)]), " wheels, its centre of mass at ",
@@ -363,6 +396,8 @@ export class DriveScene {
       release(this.root);
     }
     this.root = this.rover = this.mixer = this.action = this.trail = undefined;
+    this.arrows = [];
+    this.showForces();
     this.words.replaceChildren();
   }
 
@@ -387,6 +422,20 @@ export class DriveScene {
     this.fingers.clear();
     this.place.replaceChildren();
   }
+}
+
+/**
+ * The parts of a scene whose names are such, in their order.
+ * @param {import("three").Object3D} root
+ * @param {RegExp} name
+ */
+function partsOf(root, name) {
+  /** @type {import("three").Object3D[]} */
+  const parts = [];
+  root.traverse((part) => {
+    if (name.test(part.name)) parts.push(part);
+  });
+  return parts;
 }
 
 /**

@@ -165,7 +165,7 @@ impl File {
         }));
     }
 
-    pub(super) fn finish(mut self, root: usize, title: &str, speed: f64) -> Vec<u8> {
+    pub(super) fn finish(mut self, root: usize, title: &str, extras: &Value) -> Vec<u8> {
         let document = json!({
             "asset": { "version": "2.0", "generator": "Grouser" },
             "scene": 0,
@@ -177,7 +177,7 @@ impl File {
                 "name": "run",
                 "samplers": self.samplers,
                 "channels": self.channels,
-                "extras": { "run_seconds_per_second": speed },
+                "extras": extras,
             }],
             "accessors": self.accessors,
             "bufferViews": self.views,

@@ -104,6 +104,12 @@ pub(super) fn wheel_solids(wheel: &Wheel) -> [Solid; 2] {
 }
 
 impl Solid {
+    /// The direction of a corner of those around the z axis.
+    pub(super) fn around(corner: u32, corners: u32) -> Vec3 {
+        let (sin, cos) = wide::sin_cos(TAU * f64::from(corner) / f64::from(corners));
+        Vec3::new(cos, sin, 0.0)
+    }
+
     /// A flat face whose corners are put in the order that its direction asks for.
     fn outward(&mut self, corners: &[Vec3; 4], normal: Vec3) {
         let turn = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));

@@ -13,7 +13,7 @@ use grouser_core::vehicle::{Mount, Rover};
 use grouser_draw::motion::Pose as RoverPose;
 use grouser_draw::rover::{Bar, Block, Likeness, bars_of};
 use grouser_draw::style::{Ground as Paper, Role};
-use grouser_draw::{round_step, shade_of};
+use grouser_draw::{newtons_per_metre, round_step, shade_of};
 
 use crate::foxglove::{
     ArrowPrimitive, Color, CubePrimitive, CylinderPrimitive, KeyValuePair, LinePrimitive, LineType,
@@ -266,12 +266,8 @@ pub(crate) struct Forces {
 }
 
 impl Forces {
-    /// An even share of the weight is an arrow as long as the largest wheel is high.
     pub(crate) fn of(scenario: &Scenario) -> Self {
-        let rover = &scenario.rover;
-        let largest = rover.mounts().iter().map(Mount::shearing_radius).fold(0.0, f64::max);
-        let share = rover.mass() * scenario.gravity / rover.wheel_count() as f64;
-        Self { newtons_per_metre: share / (2.0 * largest) }
+        Self { newtons_per_metre: newtons_per_metre(scenario) }
     }
 
     pub(crate) fn scene(
@@ -300,7 +296,7 @@ impl Forces {
                 color: color(Role::Force),
             };
             // A wheel that bears nothing has no arrow.
-            let direction = wheel.force.try_normalize(1e-9);
+            let direction = wheel.force_in_wheel().try_normalize(1e-9);
             let about =
                 KeyValuePair { key: "n_per_m".into(), value: self.newtons_per_metre.to_string() };
             let arrows = direction.map(arrow).into_iter().collect();
