@@ -24,6 +24,12 @@ CALLS = {
     ),
     "wheel_speeds": ("", "gr.wheel_speeds(slope_deg=np.linspace(0, 20, 5_000_000))"),
     "heading_map": ("", "gr.heading_map(course_deg=np.linspace(-60, 60, 200_000))"),
+    "heading, vary": (
+        "",
+        "gr.heading(vary={'soil.cohesion_kpa': np.linspace(0, 1, 200_000)}, nominal=True)",
+    ),
+    "mission, vary": ("", "gr.mission('slip-check', vary={'slope_deg': np.linspace(0, 9, 20_000)})"),
+    "card, vary": ("", "gr.card(slope_deg=[5.0], vary={'gravity_m_s2': np.linspace(2, 9, 2000)})"),
     "settle": ("", "gr.settle('toyoura', 'hakuto', load_n=np.full(4_000_000, 17.0), slip_ratio=0.2, model='rft')"),
     "settle, gradients": ("", "gr.settle('toyoura', 'hakuto', load_n=np.full(2_000_000, 17.0), slip_ratio=0.2, gradients='all')"),
     "simulate, gradients": ("", "gr.simulate(duration_s=2000, gradients='all')"),

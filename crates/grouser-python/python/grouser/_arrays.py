@@ -128,7 +128,7 @@ def broadcast(
     try:
         whole = np.broadcast_arrays(*arrays.values())
     except ValueError:
-        shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
+        shapes = ", ".join(f"{name} {it.shape}" for name, it in arrays.items() if it.ndim)
         raise ParameterError(f"shapes do not broadcast: {shapes}") from None
     shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
     flat = [np.ascontiguousarray(array).ravel() for array in whole]

@@ -227,9 +227,9 @@ def refuse_vary(keywords: Container[str]) -> None:
 
     import grouser
 
-    calls = [getattr(grouser, name) for name in grouser.__all__]
-    calls = [it for it in calls if inspect.isfunction(it)]
-    takers = sorted(it.__name__ for it in calls if "vary" in inspect.signature(it).parameters)
+    calls = {name: getattr(grouser, name) for name in sorted(grouser.__all__)}
+    functions = (name for name, it in calls.items() if inspect.isfunction(it))
+    takers = [it for it in functions if "vary" in inspect.signature(calls[it]).parameters]
     raise ParameterError(
         f"vary is no key here, it is an argument of {', '.join(takers)}, of which rollout is for runs: "
         "elsewhere call once for each of several descriptions, as .replace(…) makes them, or take a "

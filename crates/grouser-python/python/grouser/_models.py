@@ -97,8 +97,8 @@ class ByModel(_tables.Tabular, Mapping[str, _Result]):
             join="outer",
             combine_attrs="override",
         )
-        data.attrs = {}
-        names = dict.fromkeys(name for own in notes for name in own)
+        data.attrs = {name: it for name, it in notes[0].items() if name == "Conventions"}
+        names = dict.fromkeys(name for own in notes for name in own if name not in data.attrs)
         of_model = {name: ("model", [own.get(name, "") for own in notes]) for name in names}
         return data.assign_coords({"model": list(self._results), **of_model})
 

@@ -94,12 +94,10 @@ class Entered(NamedTuple):
 
     documents: list[Any]
     """Scenarios or missions."""
-    places: NDArray[np.int64]
-    """Which of them each entry has."""
     problems: dict[int, str]
     """Why some documents are none."""
     native: tuple[Any, ...]
-    """All of it, as the native half takes it."""
+    """All of it, as the native half takes it: second, which document each entry has."""
     shape: tuple[int, ...]
     """The shape of all entries."""
     inputs: dict[str, NDArray[Any]]
@@ -160,13 +158,14 @@ def entered(
         is_nan,
         [(k, problems[it]) for k, it in enumerate(places.tolist()) if it in problems],
     )
-    return Entered(documents, places, problems, native, asked.shape, {**labels, **asked.given})
+    return Entered(documents, problems, native, asked.shape, {**labels, **asked.given})
 
 
 def of_each(asked: Entered, study: Callable[[Any], Mapping[str, Any]]) -> list[dict[str, Any]]:
     """The table of all entries, by a study of one document after the other."""
     why, tables = dict(asked.problems), {}
-    for number in set(asked.places.tolist()) - set(why):
+    places = asked.native[1].tolist()
+    for number in sorted({*places} - {*why}):
         try:
             table = study(asked.documents[number])
             tables[number] = {name: np.ravel(np.asarray(it)) for name, it in table.items()}
@@ -183,7 +182,7 @@ def of_each(asked: Entered, study: Callable[[Any], Mapping[str, Any]]) -> list[d
         is_number = any(table[name].dtype.kind in "fiu" for table in tables.values() if name in table)
         nothing = np.full(rows, np.nan if is_number else None)
         each = {number: table.get(name, nothing) for number, table in tables.items()}
-        cells = [each[number] for number in asked.places.tolist()] or [nothing[:0]]
+        cells = [each[number] for number in places] or [nothing[:0]]
         columns[name] = np.concatenate(cells).astype(float if is_number else object)
     return [columns]
 
@@ -230,7 +229,7 @@ def sweep_of(
     if not more and len(tables) > 1:
         ends = shaped(tables[1], {name: [0] for name in axes})
         nothing |= {name: np.broadcast_to(it, columns["status"].shape) for name, it in ends.items()}
-    columns = {**nothing, **columns}
+    columns = {**columns, **{name: it for name, it in nothing.items() if name not in columns}}
     beside = {
         name: Sweep(shaped(tables[1], own), _arrays(own), asked.inputs, asked.shape, {}, kind)
         for name, own in more.items()
