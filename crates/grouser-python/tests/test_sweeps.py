@@ -97,6 +97,18 @@ def test_soils_rovers_words_and_whole_numbers() -> None:
     assert few.inputs["rover.wheel_unit.wheel.grousers.count"].dtype.kind == "i"
 
 
+def test_runs_of_words_and_rovers() -> None:
+    vary = {"model": [["ishigami"], ["bekker"]], "rover": ["hakuto", "hakuto-rockers"]}
+    ends = gr.rollout(gr.Scenario(duration_s=0.5), slope_deg=8.0, vary=vary)
+    for i, model in enumerate(["ishigami", "bekker"]):
+        for j, rover in enumerate(["hakuto", "hakuto-rockers"]):
+            one = gr.simulate(duration_s=0.5, slope_deg=8.0, model=model, rover=rover)
+            assert ends.y_m[i, j] == one.y_m[-1] and ends.energy_j[i, j] == one.energy_j[-1]
+    assert ends.inputs["rover"].tolist() == ["hakuto", "hakuto-rockers"]
+    odd = gr.rollout(duration_s=0.5, vary={"model": ["ishigami", "none"]}, outside="nan")
+    assert odd.outcome.tolist() == ["completed", "failed"] and "model" in odd.message[1]
+
+
 def test_maps_of_headings() -> None:
     asked: dict[str, Any] = {"slope_deg": [5.0, 30.0], "course_deg": [-30.0, 0.0, 30.0]}
     vary = {"soil.cohesion_kpa": [0.2, 0.9], "gravity_m_s2": [[9.81], [1.62]]}

@@ -12,10 +12,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
 from ._arrays import Floats, broadcast, varied
+from ._cells import cells_of, documents_of, labels_of
 from ._descriptions import Scenario, Source
 from ._errors import ParameterError
 from ._gradients import Gradient, Keys, keys_of, of_rows
 from ._studies import SAMPLE, columns_of, scenario_of, standing_of
+from ._sweeps import Vary
 from ._wheels import Outside, outside_is_nan, Soils, names_of, soils_of
 
 if TYPE_CHECKING:
@@ -161,7 +163,7 @@ def rollout(
     rim_speed_m_s: ArrayLike | None = None,
     gravity_m_s2: ArrayLike | None = None,
     duration_s: ArrayLike | None = None,
-    vary: Mapping[str, ArrayLike] | None = None,
+    vary: Vary | None = None,
     trajectories: bool = False,
     gradients: Keys | None = None,
     outside: Outside = "raise",
@@ -191,7 +193,8 @@ def rollout(
         Durations of the runs [s], above 0, to 86400.
     vary : mapping of str to array_like, optional
         Other numbers of the scenario by their keys, as ``soil.cohesion_kpa`` or
-        ``rover.body.mass_kg``: they broadcast with the other arguments.
+        ``rover.body.mass_kg``, words such as ``model``, and rovers: they broadcast with the other
+        arguments.
     trajectories : bool
         Whether to keep the records over time, as `Rollout.records`.
     gradients : str or sequence of str, optional
@@ -223,28 +226,36 @@ def rollout(
     """
     runs, places = _scenarios(scenarios)
     soils, soil_places = ([], np.zeros((), dtype=np.int64)) if soil is None else soils_of(soil)
-    given = {
+    own = {
         "slope_deg": slope_deg,
         "yaw_deg": yaw_deg,
         "rim_speed_m_s": rim_speed_m_s,
         "gravity_m_s2": gravity_m_s2,
         "duration_s": duration_s,
     }
-    arguments = {name: it for name, it in given.items() if it is not None}
+    arguments = {name: it for name, it in own.items() if it is not None}
     both = [*arguments, *(_KEYS[name] for name in arguments if name in _KEYS)]
+    given = {**varied(vary, taken=both), **arguments}
+    cells = {name: cells_of(it, runs[0], name) for name, it in given.items()}
+    things = {name: it for name, it in cells.items() if it is not None}
+    problems: dict[int, str] = {}
+    made, made_places, is_nan = runs, places, outside_is_nan(outside)
+    if things:
+        made, made_places, problems = documents_of(runs, places, things, is_nan)
     asked = broadcast(
-        {**varied(vary, taken=both), **arguments}, {"scenarios": places, "soil": soil_places}
+        {name: it for name, it in given.items() if name not in things},
+        {"scenarios": made_places, "soil": soil_places},
     )
     index, soil_index = asked.places
     entries = (
-        [run._document for run in runs],
-        index if len(runs) > 1 else None,
+        [run._document for run in made],
+        index if len(made) > 1 else None,
         [one._document for one in soils],
         soil_index if len(soils) > 1 else None,
         asked.flat,
         index.size,
-        outside_is_nan(outside),
-        (),
+        is_nan,
+        [(k, problems[it]) for k, it in enumerate(index.tolist()) if it in problems],
     )
     found = _core.rollout(entries, trajectories, keys_of(gradients))
     shape = asked.shape
@@ -260,7 +271,7 @@ def rollout(
         records = {name: it.reshape(*shape, it.shape[-1]) for name, it in records.items()}
     ends = {name: values.reshape(shape) for name, values in found.items()}
     inputs: dict[str, NDArray[Any]] = {} if places.ndim == 0 else {"scenario": places}
-    inputs |= names_of(soils, soil_places)
+    inputs |= {**names_of(soils, soil_places), **{k: labels_of(it) for k, it in things.items()}}
     inputs |= {_COLUMNS.get(name, name): values for name, values in asked.given.items()}
     return Rollout(
         outcome=outcome, message=message, **ends, records=records, gradient=gradient, inputs=inputs
