@@ -86,20 +86,18 @@ fn swept<'py, V: RunBase>(
     })?;
     let found = found.map_err(|(place, problem)| errors::misfit_at(place, count, &problem))?;
     for (places, found) in alike.into_iter().zip(found) {
-        match found {
+        let why = match found {
             Ok(tables) => {
                 places.into_iter().zip(tables).for_each(|(place, own)| entries[place] = Ok(own));
+                continue;
             }
             Err(NoTables::Unfit(problem)) if !outside_is_nan => {
                 return Err(errors::misfit_at(places[0], count, &problem));
             }
-            Err(NoTables::Unfit(problem)) => {
-                places.into_iter().for_each(|place| entries[place] = Err(problem.to_string()));
-            }
-            Err(NoTables::Failed(why)) => {
-                places.into_iter().for_each(|place| entries[place] = Err(why.clone()));
-            }
-        }
+            Err(NoTables::Unfit(problem)) => problem.to_string(),
+            Err(NoTables::Failed(why)) => why,
+        };
+        places.into_iter().for_each(|place| entries[place] = Err(why.clone()));
     }
     let why = |entry: &Result<StudyTables, String>| entry.as_ref().err().cloned();
     let why: Vec<Option<String>> = entries.iter().map(why).collect();
