@@ -220,11 +220,13 @@ pub const UNITS: [(&str, Unit); 37] = [
 /// Ends of the names of quantiles: `yaw_deg_p2_5` is in degrees.
 pub const QUANTILES: [&str; 3] = ["_p2_5", "_p50", "_p97_5"];
 
-/// The name of a column in words, with its unit.
+/// The name of a column, or a key, in words, with its unit.
 ///
 /// ```
 /// let labels = ["time_s", "yaw_deg_p97_5", "probability_completed"].map(grouser_io::label_of);
 /// assert_eq!(labels, ["time [s]", "yaw, 97.5 % [°]", "probability completed"]);
+/// let keys = ["shear.longitudinal_m", "pressure_sinkage.n"].map(grouser_io::label_of);
+/// assert_eq!(keys, ["shear longitudinal [m]", "pressure sinkage n"]);
 /// ```
 #[must_use]
 pub fn label_of(name: &str) -> String {
@@ -239,7 +241,7 @@ pub fn label_of(name: &str) -> String {
     let unit = UNITS.iter().find_map(|(end, unit)| Some((name.strip_suffix(end)?, unit.symbol)));
     let (stem, symbol) = unit.unwrap_or((name, ""));
     let comma = if words.is_empty() { "" } else { ", " };
-    let label = format!("{}{comma}{words}", stem.replace('_', " "));
+    let label = format!("{}{comma}{words}", stem.replace(['_', '.'], " "));
     if symbol.is_empty() { label } else { format!("{label} [{symbol}]") }
 }
 

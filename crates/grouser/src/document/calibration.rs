@@ -2,6 +2,7 @@
 
 mod aim;
 mod bevameter;
+mod corner;
 mod handed_on;
 mod left_out;
 mod solved;
@@ -13,6 +14,7 @@ pub use aim::{AimError, AimWords, MOST_CANDIDATES};
 pub use bevameter::{
     BevameterFound, BevameterProblem, BevameterResults, BevameterTests, PlateRecord, ShearRecord,
 };
+pub use corner::Corner;
 pub use handed_on::samples_csv;
 pub use left_out::{CoverageRecord, LeftOutRecord};
 pub use solved::{

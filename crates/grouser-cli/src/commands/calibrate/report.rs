@@ -9,9 +9,9 @@ use grouser::document::reading::four_digits;
 use grouser::document::validation::GroupRecord;
 use grouser::document::{Document, SAMPLES_FILE, SoilFamily};
 use grouser::studies::calibration::Posterior;
-use grouser::studies::calibration::diagnostics::{Samples, correlations_of};
+use grouser::studies::calibration::diagnostics::Samples;
 use grouser::studies::measurement::Quantity;
-use grouser_draw::chart::{Chart, Drawable, Grid, Series, Style};
+use grouser_draw::chart::{Chart, Drawable, Series, Style};
 use serde::Serialize;
 
 use super::super::{Answer, validate};
@@ -25,13 +25,8 @@ use crate::output::{self, Format};
 use crate::report::answer::add_next;
 use crate::report::page::Page;
 
-/// Points of all scatters in a corner plot together, and of one.
-const ALL_POINTS: usize = 12_000;
-const POINTS: usize = 400;
 /// Keys of the corner plot on the page; the file has all.
 const KEYS_ON_PAGE: usize = 7;
-/// Bars of each histogram.
-const BARS: usize = 24;
 
 /// Prints the results.
 pub(super) fn print<R: Serialize>(
@@ -308,23 +303,15 @@ pub(super) fn add_parameters(page: &mut Page, solved: &Solved) {
 /// Corner plot and traces, if there is a posterior.
 pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: &Solved) {
     let Some(Posterior { samples, .. }) = &solved.solution.posterior else { return };
-    let shown = least_known(&solved.records);
-    let which = if shown.len() < solved.records.len() {
-        " Shown are the keys with the widest posteriors; figures/corner.svg has all."
-    } else {
-        ""
-    };
     page.heading("Posterior");
-    page.drawing(
-        &corner(&solved.records, &shown, samples),
-        &format!(
-            "Posterior of each fitted key (histogram) and of each pair (samples). A slanted cloud \
-             is a correlated pair: one key compensates for the other. A cloud that fills its \
-             bounds is a key that the data do not constrain.{which}"
-        ),
-    );
-    let all: Vec<usize> = (0..solved.records.len()).collect();
-    folder.add("figures/corner.svg", corner(&solved.records, &all, samples));
+    if let Some(corner) = solved.corner(KEYS_ON_PAGE) {
+        let is_part = solved.records.len() > KEYS_ON_PAGE;
+        let all = if is_part { " figures/corner.svg has all." } else { "" };
+        page.drawing(&corner.figure.to_svg(), &(corner.caption + all));
+    }
+    if let Some(corner) = solved.corner(usize::MAX) {
+        folder.add("figures/corner.svg", corner.figure.to_svg());
+    }
     let traces = traces(&solved.records, samples).to_svg();
     page.drawing(
         &traces,
@@ -332,75 +319,6 @@ pub(super) fn add_posterior(folder: &mut OutputFolder, page: &mut Page, solved: 
          mean of all. Ensembles that have converged cross each other all along.",
     );
     folder.add("figures/traces.svg", traces);
-}
-
-/// Short names for axes: the last part of the key.
-fn short(record: &ParameterRecord) -> &str {
-    record.key.rsplit('.').next().unwrap_or(&record.key)
-}
-
-/// Places of the keys whose deviation is largest beside that of the prior, in the keys' order.
-fn least_known(records: &[ParameterRecord]) -> Vec<usize> {
-    let mut places: Vec<usize> = (0..records.len()).collect();
-    let left = |place: usize| records[place].posterior_contraction.unwrap_or(1.0);
-    places.sort_by(|&one, &other| left(other).total_cmp(&left(one)));
-    places.truncate(KEYS_ON_PAGE);
-    places.sort_unstable();
-    places
-}
-
-/// Histograms of keys and clouds of their pairs, as SVG; of a single key its histogram, as wide as
-/// a page.
-///
-/// * `places`: of the keys to show
-fn corner(records: &[ParameterRecord], places: &[usize], samples: &Samples) -> String {
-    const TITLE: &str = "Posterior";
-    if let [only] = *places {
-        let axes = (short(&records[only]), "share of the samples");
-        let series = Series::new("", Style::Line, 1, histogram(samples, only));
-        return Chart::new(TITLE, axes, vec![series]).to_svg();
-    }
-    let count = places.len();
-    let pairs = (count * count.saturating_sub(1) / 2).max(1);
-    let rows = samples.thinned(POINTS.min(ALL_POINTS / pairs));
-    let cell = |row: usize, column: usize| -> Option<Chart> {
-        let (x, y) = (places[column], places[row]);
-        let points: Vec<(f64, f64)> = match row.cmp(&column) {
-            std::cmp::Ordering::Less => return None,
-            std::cmp::Ordering::Equal => histogram(samples, y),
-            std::cmp::Ordering::Greater => rows.iter().map(|it| (it[x], it[y])).collect(),
-        };
-        let style = if row == column { Style::Line } else { Style::Dots };
-        let label = |place: usize| short(&records[places[place]]).to_owned();
-        Some(Chart::new(
-            String::new(),
-            (
-                if row + 1 == count { label(column) } else { String::new() },
-                if column == 0 && row > 0 { label(row) } else { String::new() },
-            ),
-            vec![Series::new("", style, 1, points)],
-        ))
-    };
-    let cells = (0..count).map(|row| (0..count).map(|column| cell(row, column)).collect());
-    Grid { title: TITLE.into(), cells: cells.collect() }.to_svg()
-}
-
-/// How often a value falls into each of some bins, as a stepped outline.
-fn histogram(samples: &Samples, column: usize) -> Vec<(f64, f64)> {
-    let values: Vec<f64> = samples.rows().map(|row| row[column]).collect();
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let width = ((high - low) / BARS as f64).max(f64::MIN_POSITIVE);
-    let mut outline = vec![(low, 0.0)];
-    for bar in 0..BARS {
-        let [left, right] = [bar, bar + 1].map(|edge| low + width * edge as f64);
-        let last = bar + 1 == BARS;
-        let within = |value: &&f64| **value >= left && (**value < right || last);
-        let share = values.iter().filter(within).count() as f64 / values.len() as f64;
-        outline.extend([(left, share), (right, share)]);
-    }
-    outline.push((high, 0.0));
-    outline
 }
 
 /// For the key that mixes worst: the mean of each ensemble over the steps.
@@ -427,11 +345,7 @@ fn traces(records: &[ParameterRecord], samples: &Samples) -> Chart {
 /// Correlations of the fitted keys, two digits, under numbers for names.
 fn correlations(solved: &Solved) -> Text {
     let count = solved.records.len();
-    let solution = &solved.solution;
-    let matrix = match &solution.posterior {
-        Some(posterior) => posterior.samples.correlations(),
-        None => correlations_of(&solution.fit.covariance),
-    };
+    let matrix = solved.correlations();
     let mut header = vec!["key".to_owned()];
     header.extend((1..=count).map(|number| number.to_string()));
     let row = |(place, record): (usize, &ParameterRecord)| {

@@ -1,11 +1,13 @@
 //! Results that every calibration has: parameters, discrepancies, sampler, unidentifiable
 //! parameters.
 
+use nalgebra::DMatrix;
 use serde::Serialize;
 
 use super::super::columns::{SLIP_ANGLE, TOTAL_SLIP};
 use super::super::reading::four_digits;
 use super::{ParameterRecord, channel_name, channel_unit, unidentifiable};
+use crate::studies::calibration::diagnostics::correlations_of;
 use crate::studies::calibration::solution::GOOD_R_HAT;
 use crate::studies::calibration::{
     Fit, Parameter, Posterior, PosteriorState, SamplerSettings, Sampling, Solution,
@@ -131,6 +133,16 @@ impl Solved {
             unidentifiable: unidentifiable(parameters, &solution.identifiability),
             sampler: solution.posterior.as_ref().map(SamplerRecord::from),
             solution,
+        }
+    }
+
+    /// Correlation of each fitted key with each other [-]: of the posterior, or else of least
+    /// squares to first order.
+    #[must_use]
+    pub fn correlations(&self) -> DMatrix<f64> {
+        match &self.solution.posterior {
+            Some(posterior) => posterior.samples.correlations(),
+            None => correlations_of(&self.solution.fit.covariance),
         }
     }
 
