@@ -24,13 +24,14 @@ import { LOST, answer, textOf } from "./engine.js";
  * @property {string} [model]
  * @property {boolean} [states_uncertainty]
  * @property {{name: string, caption: string, svg: string}[]} [drawings]
- * @property {{caption: string, svg: string}[]} [figures]
+ * @property {{caption: string, svg: string, is_wide?: boolean}[]} [figures]
  * @property {{name: string, label: string, about: string}[]} [layers]
  * @property {Record<string, number[]>} [frame] where the ground lies on a drawing
  * @property {string[]} [notes]
  * @property {string} [slide] as SVG
  * @property {string | null} [scene] a run in three dimensions: binary glTF, in base64
- * @property {{caption: string, columns: string[], rows: Row[]}[]} [tables]
+ * @property {{caption: string, columns: string[], words?: Record<string, string>, rows: Row[]}[]} [tables]
+ * @property {Key[]} [free] ends of the numbers of a design
  * @property {{name: string, meaning: string}[]} [measures]
  * @property {string} [what] is counted
  * @property {number} [runs] of a campaign

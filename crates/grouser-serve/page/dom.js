@@ -75,13 +75,13 @@ export function tableOf({ caption, columns, labels, words, rows }) {
 
 /**
  * The engine's pictures. As images they can run nothing, whatever is written in them.
- * @param {{caption: string, svg: string}[]} all
+ * @param {{caption: string, svg: string, is_wide?: boolean}[]} all
  */
 export function picturesOf(all) {
-  return all.map(({ caption, svg: content }) => {
+  return all.map(({ caption, svg: content, is_wide: isWide }) => {
     const image = element("img", { src: URL.createObjectURL(new Blob([content], { type: "image/svg+xml" })), alt: caption });
     image.addEventListener("load", () => URL.revokeObjectURL(image.getAttribute("src") ?? ""));
-    return element("figure", {}, [image, element("figcaption", {}, [caption])]);
+    return element("figure", isWide ? { class: "across" } : {}, [image, element("figcaption", {}, [caption])]);
   });
 }
 

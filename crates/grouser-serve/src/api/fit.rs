@@ -9,11 +9,15 @@ use std::sync::{Mutex, PoisonError};
 use grouser::answers::AnswerError;
 use grouser::answers::validation::figures;
 use grouser::document::calibration::{
-    AimWords, STEPS, USUAL_STEPS, WheelFound, WheelInputs, WheelProblem, samples_csv, sampling,
+    AimWords, Corner, STEPS, Solved, USUAL_STEPS, WheelFound, WheelInputs, WheelProblem,
+    samples_csv, sampling,
 };
+use grouser::document::columns::fit::column_of;
 use grouser::document::measurements::{self, Choice, Condition, Limits, Measurements};
+use grouser::document::validation::GroupRecord;
 use grouser::document::{FitKey, SAMPLES_FILE, SoilFamily, json};
 use grouser::studies::calibration::{CalibrationError, Observer, PosteriorState, Work};
+use grouser::studies::measurement::Quantity;
 use grouser_draw::Slide;
 use grouser_draw::chart::Drawable as _;
 use http::StatusCode;
@@ -27,6 +31,12 @@ use crate::asked::{GoOn, Question, Send};
 use crate::console::Console;
 use crate::progress::Progress;
 use crate::refusal::Refusal;
+
+/// Keys of a corner plot: more are too small to be read.
+const MOST_DRAWN: usize = 7;
+
+/// What is shown of the errors of a quantity.
+const ERRORS: [&str; 4] = ["rmse", "bias", "repeatability", "cells"];
 
 /// What is asked of a fit.
 struct FitAsked {
@@ -176,8 +186,16 @@ impl FitAsked {
             let command = self.line.text().to_owned();
             Slide::of_answer(&says, &it.chart.sheet(), &whose, command).to_svg()
         });
-        let pictures =
-            drawn.iter().map(|it| json!({ "caption": it.caption, "svg": it.chart.to_svg() }));
+        let picture = |caption: &str, svg: String| json!({ "caption": caption, "svg": svg });
+        let corner = solved.corner(MOST_DRAWN);
+        let pictures = drawn.iter().map(|it| picture(it.caption, it.chart.to_svg()));
+        let across = |it: &Corner| {
+            let mut own = picture(&it.caption, it.figure.to_svg());
+            own["is_wide"] = true.into();
+            own
+        };
+        // It is read as a whole, and so it is as wide as the page, before the others.
+        let pictures = corner.iter().map(across).chain(pictures);
         let mut documents = json!({ "soil.toml": found.soil.to_toml() });
         if let Some(samples) = samples_csv(family, solved) {
             documents[SAMPLES_FILE] = samples.into();
@@ -195,15 +213,45 @@ impl FitAsked {
             "sentences": sentences,
             "assumptions": stand.soil.assumptions,
             "documents": documents,
-            "tables": [shown_table(
-                "What is fitted, with its 95 % interval",
-                &columns,
-                &json!(solved.records),
-            )],
+            "tables": [
+                shown_table(
+                    "What is fitted, with its 95 % interval",
+                    &columns,
+                    &json!(solved.records),
+                ),
+                correlations(solved),
+                errors(found),
+            ],
             "figures": pictures.collect::<Vec<_>>(),
             "slide": slide,
         })));
     }
+}
+
+/// The correlation of each fitted number with each other, as a table.
+fn correlations(solved: &Solved) -> Value {
+    let matrix = solved.correlations();
+    let keys: Vec<&str> = solved.records.iter().map(|it| &*it.key).collect();
+    let row = |(place, key): (usize, &&str)| {
+        let others = keys.iter().enumerate().map(|(at, it)| (*it, json!(matrix[(place, at)])));
+        others.chain([("key", json!(key))]).collect()
+    };
+    let rows: Vec<Value> = keys.iter().enumerate().map(row).collect();
+    let columns: Vec<&str> = ["key"].into_iter().chain(keys.iter().copied()).collect();
+    shown_table("Correlation of what is fitted", &columns, &json!(rows))
+}
+
+/// The errors of the trials that were fitted, a row for each quantity.
+fn errors(found: &WheelFound) -> Value {
+    let overall = GroupRecord::from(&found.validation.overall);
+    let row = |quantity| {
+        let own = json!(overall.errors(quantity)?);
+        let name = [("quantity", json!(column_of(quantity).name))].into_iter();
+        Some(name.chain(ERRORS.map(|name| (name, own[name].clone()))).collect())
+    };
+    let rows: Vec<Value> = Quantity::ALL.into_iter().filter_map(row).collect();
+    let columns: Vec<&str> = ["quantity"].into_iter().chain(ERRORS).collect();
+    shown_table("Errors of the fit, in the unit of the quantity", &columns, &json!(rows))
 }
 
 /// Follows a fit.

@@ -312,7 +312,7 @@ fn is_name(text: &str) -> bool {
 
 /// A column or a key in words, with its unit; what is in words already as it is.
 fn in_words(name: &str) -> String {
-    if is_name(name) { label_of(&name.replace('.', "_")) } else { name.to_owned() }
+    if is_name(name) { label_of(name) } else { name.to_owned() }
 }
 
 /// Why there is no answer.

@@ -41,8 +41,14 @@ fn a_soil_is_fitted_to_the_wheel_tests_of_the_folder() {
     );
     assert!(shown["documents"]["soil.toml"].as_str().unwrap().contains("tests.csv"));
     assert!(shown["documents"]["soil-samples.csv"].is_string());
-    assert!(!shown["figures"].as_array().unwrap().is_empty());
     assert_eq!(shown["tables"][0]["rows"].as_array().unwrap().len(), 1);
+    let errors = &shown["tables"][2]["rows"][0];
+    assert_eq!(errors["rmse"], answer["overall"][errors["quantity"].as_str().unwrap()]["rmse"]);
+    // The posterior of the one number is the first figure.
+    let corner = shown["figures"].as_array().unwrap().first().unwrap();
+    let svg = corner["svg"].as_str().unwrap();
+    assert!(svg.contains("shear longitudinal [m]"), "{svg}");
+    assert!(corner["caption"].as_str().unwrap().contains("95 % interval"), "{corner}");
     for (key, wrong) in [
         ("data", json!({"data": "../tests.csv", "fit": ["soil.friction_angle_deg"]})),
         ("data", json!({"data": "absent.csv", "fit": ["soil.friction_angle_deg"]})),
@@ -55,6 +61,29 @@ fn a_soil_is_fitted_to_the_wheel_tests_of_the_folder() {
         assert_eq!(reply.status, 422, "{wrong}");
         assert_eq!(reply.lines()[0]["key"], key, "{wrong}: {reply:?}");
     }
+}
+
+#[test]
+fn a_fit_says_how_its_numbers_go_together() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("tests.csv"), TESTS).unwrap();
+    let settings = Settings { folder: Some(folder.path().to_owned()), ..Settings::default() };
+    let server = Served::start(&settings);
+    let keys = ["soil.shear.longitudinal_m", "soil.friction_angle_deg"];
+    let asked = json!({
+        "data": "tests.csv", "wheel": "hakuto", "soil": "toyoura", "where": ["slip_angle_deg=0"],
+        "fit": keys, "steps": 200,
+    });
+    let lines = server.post("fit", &asked).lines();
+    let shown = lines.last().unwrap();
+    let rows = &shown["tables"][1]["rows"];
+    let between = rows[0][keys[1]].as_f64().unwrap();
+    assert!((0.0..1.0).contains(&between.abs()) && rows[1][keys[0]] == between, "{rows}");
+    assert!((rows[0][keys[0]].as_f64().unwrap() - 1.0).abs() < 1e-12, "{rows}");
+    // The picture says the same to who does not see it.
+    let caption = shown["figures"].as_array().unwrap().first().unwrap()["caption"].clone();
+    let said = format!("shear longitudinal [m] and friction angle [°]: {between:.2}.");
+    assert!(caption.as_str().unwrap().contains(&said), "{caption}: {between}");
 }
 
 #[test]
