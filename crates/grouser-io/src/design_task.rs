@@ -455,14 +455,19 @@ fn free_key(
         return Err(DocumentError::at(origin, problem)
             .with_hint(format!("give the mount a mass: {mount}.mass_kg")));
     }
-    for end in [least, most] {
+    // An end that was set by itself is to blame for itself.
+    let own = tree.entry(table).and_then(|entry| entry.node.entry(path)).map(|it| &it.node.value);
+    let own = if let Some(Value::List(ends)) = own { &ends[..] } else { &[] };
+    let origin_of = |end: usize| own.get(end).map_or(origin, |it| &it.origin);
+    for (place, end) in [least, most].into_iter().enumerate() {
         if !key.range.contains(&end) {
-            return Err(DocumentError::at(origin, key.out_of_range(end)));
+            return Err(DocumentError::at(origin_of(place), key.out_of_range(end)));
         }
     }
     if least >= most {
         let problem = Problem::Conflict("the first end of what is free is to be below the second");
-        return Err(DocumentError::at(origin, problem));
+        let set = (0..own.len()).map(origin_of).find(|it| it.text.is_argument);
+        return Err(DocumentError::at(set.unwrap_or(origin), problem));
     }
     Ok(key)
 }

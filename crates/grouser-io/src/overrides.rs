@@ -337,8 +337,8 @@ impl Override {
             let problem = Problem::Malformed("the key leads through a value that is not a table");
             DocumentError::at(&self.key_origin, problem)
         };
-        let mut node = tree;
-        for step in path {
+        let (mut node, mut rest) = (tree, path);
+        while let Some((step, after)) = rest.split_first() {
             let entries = match &mut node.value {
                 Value::Table(entries) => entries,
                 Value::List(nodes) => {
@@ -347,18 +347,23 @@ impl Override {
                     node = index
                         .and_then(|index| nodes.get_mut(index))
                         .ok_or_else(|| self.no_such_entry(count))?;
+                    rest = after;
                     continue;
                 }
                 _ => return Err(not_a_table()),
             };
-            let position = entries.iter().position(|entry| entry.key == *step);
-            let position = position.unwrap_or_else(|| {
-                let key_origin = self.key_origin.clone();
-                let empty = Node { value: Value::Table(Vec::new()), origin: key_origin.clone() };
-                entries.push(Entry { key: step.clone(), key_origin, node: empty });
-                entries.len() - 1
-            });
-            node = &mut entries[position].node;
+            // A key may have dots of its own, as those of free numbers have.
+            let found = entries.iter().enumerate();
+            let found = found.filter_map(|(at, entry)| Some((at, behind(&entry.key, rest)?)));
+            let (position, after) =
+                found.min_by_key(|(_, after)| after.len()).unwrap_or_else(|| {
+                    let key_origin = self.key_origin.clone();
+                    let empty =
+                        Node { value: Value::Table(Vec::new()), origin: key_origin.clone() };
+                    entries.push(Entry { key: step.clone(), key_origin, node: empty });
+                    (entries.len() - 1, after)
+                });
+            (node, rest) = (&mut entries[position].node, after);
         }
         *node = self.value.clone();
         Ok(())
@@ -386,6 +391,14 @@ impl Override {
             known.contains(&entry.key.as_str()) || entry.node.origin.text.is_argument
         });
     }
+}
+
+/// The steps of a path behind a key, if it begins with that.
+fn behind<'p>(key: &str, path: &'p [String]) -> Option<&'p [String]> {
+    key.split('.').try_fold(path, |rest, step| {
+        let (first, rest) = rest.split_first()?;
+        (first == step).then_some(rest)
+    })
 }
 
 /// The keys of a drive's speed, of which each law has one.

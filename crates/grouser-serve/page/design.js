@@ -1,7 +1,9 @@
 // The fifth view: a design, the numbers of a rover that are the best under limits.
 
+import { Asking } from "./api.js";
 import { setOf } from "./session.js";
 import { StudyAnswer } from "./study.js";
+import { labelOf } from "./wheel.js";
 
 /** @typedef {import("./session.js").Session} Session */
 
@@ -39,6 +41,16 @@ export function namedKeys(keys, measures) {
   });
 }
 
+/**
+ * An end of a number that is free, called by the number and the part of the rover that has it.
+ * @param {import("./api.js").Key} key
+ */
+export function nameOfEnd(key) {
+  const [, path = "", end] = key.key.match(/\.free\.rover\.(.*)\.([01])$/) ?? [];
+  const part = path.split(".").slice(0, -1).join(" ").replace(/_/g, " ").replace("wheel unit wheel", "wheel");
+  return { ...key, meaning: `${labelOf(key)}${part ? ` (${part})` : ""}: ${end === "0" ? "at least" : "at most"}` };
+}
+
 /** The answer about a design. */
 export class DesignAnswer extends StudyAnswer {
   /**
@@ -52,6 +64,25 @@ export class DesignAnswer extends StudyAnswer {
       none: "no design is searched yet",
       failed: "no design",
     }, ended, started);
+    this.checking = new Asking();
+  }
+
+  /**
+   * @override
+   * @param {Session} session
+   */
+  ask(session) {
+    super.ask(session);
+    // What is wrong with its numbers is said before it is searched.
+    this.checking.ask("design-task", about(session), () => {}, (error) => {
+      if (error) this.ended(error);
+    });
+  }
+
+  /** @override */
+  stop() {
+    this.checking.stop();
+    super.stop();
   }
 
   /**

@@ -3,11 +3,12 @@
 use grouser::answers::design::DesignQuestion;
 use grouser::answers::{Answer, AnswerOptions, Sampling};
 use grouser::document::design::Measure;
-use grouser::document::{self, Kind, json};
+use grouser::document::{self, Described as _, DesignTask, Kind, json};
 use grouser_draw::title_of;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::command::CommandLine;
+use super::document::settable;
 use super::fields::AskedFields;
 use super::parts::StudyParts;
 use super::staged::{Staged, Stages, refused};
@@ -76,10 +77,20 @@ pub(super) fn task(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
             "assumptions": task.assumptions,
             "documents": { "design.toml": task.to_toml() },
             "keys": super::document::study_keys(Kind::Design, &task.document),
+            "free": task.value.free.iter().flat_map(|it| ends_of(&task.value, it)).collect::<Vec<_>>(),
             "measures": measures,
         })));
         Ok(())
     }))
+}
+
+/// The ends between which a number is free, as numbers that may be set.
+fn ends_of(task: &DesignTask, (path, ends): &(String, [f64; 2])) -> [Value; 2] {
+    let rover = &task.candidates[0].grounds[0].scenario.value;
+    [0, 1].map(|end| {
+        let key = format!("{}.free.{path}.{end}", Kind::Design);
+        settable((key, ends[end]), (Kind::Scenario, path), rover.range(path).as_ref())
+    })
 }
 
 impl Staged for DesignQuestion {

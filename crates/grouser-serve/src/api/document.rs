@@ -1,6 +1,8 @@
 //! `scenario` and `stand`: what a question is about, as complete documents, with the numbers that
 //! may be set, from the rows that declare them.
 
+use std::ops::RangeInclusive;
+
 use grouser::document::{
     self, Described, Document, Kind, Loaded, UncertainSoil, json, meaning, unit_of,
 };
@@ -66,19 +68,26 @@ pub(super) fn study_keys(kind: Kind, document: &Document) -> Vec<Value> {
         path.split('.').all(|step| !of_others.contains(&step) && step.parse::<usize>().is_err())
     };
     let one = |path: &String| {
-        let value = document.number(path)?;
-        let range = document::range(kind, path);
-        let measured = path.rsplit('.').find_map(unit_of);
-        Some(json!({
-            "key": format!("{kind}.{path}"),
-            "value": value,
-            "minimum": range.as_ref().map(|it| *it.start()),
-            "maximum": range.as_ref().map(|it| *it.end()),
-            "unit": measured.map(|unit| unit.symbol),
-            "meaning": meaning(kind, path),
-        }))
+        let (value, range) = (document.number(path)?, document::range(kind, path));
+        Some(settable((format!("{kind}.{path}"), value), (kind, path), range.as_ref()))
     };
     document.number_keys().iter().filter(is_own).filter_map(one).collect()
+}
+
+/// A number that may be set under a key, and what it is by the path that declares it.
+pub(super) fn settable(
+    (key, value): (String, f64),
+    (kind, path): (Kind, &str),
+    range: Option<&RangeInclusive<f64>>,
+) -> Value {
+    json!({
+        "key": key,
+        "value": value,
+        "minimum": range.map(|it| *it.start()),
+        "maximum": range.map(|it| *it.end()),
+        "unit": path.rsplit('.').find_map(unit_of).map(|unit| unit.symbol),
+        "meaning": meaning(kind, path),
+    })
 }
 
 fn joined<T: Clone>(one: &[T], other: &[T]) -> Vec<T> {

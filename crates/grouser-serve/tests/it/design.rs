@@ -75,6 +75,28 @@ fn a_task_has_its_numbers_and_its_errors_name_their_keys() {
         assert_eq!(reply.status, 422, "{body}: {reply:?}");
         assert_eq!(reply.lines()[0]["key"], key, "{body}");
     }
+    // Each end of what is free has a key of its own, and its own error.
+    let ends = |body: Value| server.post("design-task", &body).lines().remove(0)["free"].clone();
+    let [least, most] =
+        [0, 1].map(|end| format!("design.free.rover.wheel_unit.wheel.radius_m.{end}"));
+    let set = |of: &[(&str, f64)]| {
+        let set: Value = of.iter().map(|(key, value)| ((*key).to_owned(), json!(value))).collect();
+        json!({ "design": LIGHTER, "set": set })
+    };
+    let free = ends(set(&[(&most, 0.12)]));
+    let radius: Vec<&Value> = free.as_array().unwrap().iter().take(2).collect();
+    assert_eq!((&radius[0]["key"], &radius[0]["value"]), (&json!(least), &json!(0.06)));
+    assert_eq!((&radius[1]["key"], &radius[1]["value"]), (&json!(most), &json!(0.12)));
+    assert!(radius[0]["minimum"].is_number() && radius[0]["unit"] == "m", "{free}");
+    for (of, key) in [
+        (&[(&*least, 0.3)][..], &least),
+        (&[(&most, 0.01)], &most),
+        (&[(&least, -1.0)], &least),
+        (&[(&least, 0.07), (&most, 1e3)], &most),
+    ] {
+        let reply = server.post("design-task", &set(of));
+        assert_eq!((reply.status, &reply.lines()[0]["key"]), (422, &json!(key)), "{reply:?}");
+    }
     // Where no design keeps the limits, the nearest one says which it misses.
     let limits = json!({"design.subject_to.sinkage_ratio.at_most": 0.001});
     let none = server.post("design", &json!({"design": LIGHTER, "nominal": true, "set": limits}));
