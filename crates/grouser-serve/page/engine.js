@@ -7,9 +7,6 @@ export const VIEWS = /** @type {string[] | undefined} */ (undefined);
 /** What is said of the views that are not there, the command that has them, and the page about it. */
 export const REMARK = /** @type {{text: string, command: string, guide: string} | undefined} */ (undefined);
 
-/** Whether the engine draws the operator's card. */
-export const DRAWS_CARDS = /** @type {boolean} */ (true);
-
 /** What is said where nothing answers. */
 export const LOST = /** @type {string} */ ("The server does not answer: is it still running?");
 

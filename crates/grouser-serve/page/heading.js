@@ -4,7 +4,7 @@
 import { Asking } from "./api.js";
 import { draw } from "./chart.js";
 import { byId, element, four, save } from "./dom.js";
-import { DRAWS_CARDS, LOST } from "./engine.js";
+import { LOST } from "./engine.js";
 import { setOf } from "./session.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -233,8 +233,8 @@ export function chartOf(cards) {
 /**
  * What leads out of the page: the command, the documents, the card, what is assumed.
  * @param {Line | undefined} shown
- * @param {{command: string, question: object} | undefined} card the command of the card, and what is
- *   asked for it
+ * @param {{command: string, question: object | undefined} | undefined} card the command of the card,
+ *   and what is asked for it where the engine draws cards
  */
 export function exportOf(shown, card) {
   /** @type {(Node | string)[]} */
@@ -251,7 +251,8 @@ export function exportOf(shown, card) {
   if (card) {
     const { command, question } = card;
     parts.push(element("p", {}, ["The operator's card of this set-up, as PDF:"]), element("pre", { tabindex: 0 }, [command]), copy(command, "Copy the card's command"));
-    if (DRAWS_CARDS) parts.push(" ", ...cardSaver(question));
+    if (question) parts.push(" ", ...cardSaver(question));
+    else parts.push(element("p", { id: "no-card" }, ["Cards are not drawn here: run the command."]));
   }
   for (const [name, content] of Object.entries(shown?.documents ?? {})) {
     parts.push(" ", element("button", { type: "button", onclick: () => save(name, content) }, [`Save ${name}`]));
@@ -312,10 +313,11 @@ function cardSaver(question) {
  * The card of a session: its command, from that of the heading, and what is asked for it.
  * @param {Session} session
  * @param {string | undefined} command
+ * @param {boolean} isDrawn whether the engine draws cards
  */
-export function cardOf(session, command) {
+export function cardOf(session, command, isDrawn) {
   const line = cardCommand(command);
-  return line === undefined ? undefined : { command: line, question: about(session) };
+  return line === undefined ? undefined : { command: line, question: isDrawn ? about(session) : undefined };
 }
 
 /** @param {string | undefined} command that of the heading */

@@ -57,13 +57,17 @@ pub(crate) static QUESTIONS: &[(&str, Read)] = &[
     ("stand", document::stand),
 ];
 
+/// The question of the operator's card, which something else draws, if anything does.
+#[cfg(feature = "server")]
+pub(crate) const CARD: &str = "card";
+
 /// Those that open files of a folder, or take long.
 #[cfg(feature = "server")]
 pub(crate) static OF_FOLDERS: &[(&str, Read)] = &[
     ("map", map::read),
     ("map-place", place::read),
     ("route", route::read),
-    ("card", card::read),
+    (CARD, card::read),
     ("traverse", traverse::read),
     ("drive-step", drive_step::read),
     ("design", design::read),
@@ -83,6 +87,7 @@ pub(crate) static LISTS: &[(&str, List)] = &[
     ("presets", lists::presets),
     ("documents", lists::documents),
     ("files", lists::files),
+    ("questions", lists::questions),
     #[cfg(feature = "server")]
     ("campaigns", campaign::list),
     #[cfg(feature = "server")]

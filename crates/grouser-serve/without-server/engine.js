@@ -15,9 +15,6 @@ export const REMARK = {
   guide: "../guide/console.html",
 };
 
-/** @type {Engine["DRAWS_CARDS"]} */
-export const DRAWS_CARDS = false;
-
 /** @type {Engine["LOST"]} */
 export const LOST = "The engine cannot be loaded: is this page still there?";
 

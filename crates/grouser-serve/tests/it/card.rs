@@ -44,9 +44,17 @@ fn a_card_is_drawn_of_what_is_asked_for() {
     assert_eq!((reply.status, &reply.lines()[0]["key"]), (422, &json!("model")));
 }
 
+/// The page offers no button for what is not among the questions.
 #[test]
 fn a_server_without_cards_says_so() {
-    let reply = Served::usual().post("card", &json!({}));
+    let (with, without) = (Settings { card: Some(words), ..Settings::default() }, Served::usual());
+    for (server, draws) in [(&Served::start(&with), true), (&without, false)] {
+        let list = server.ask("GET", "/api/questions", "", "").lines().remove(0);
+        let names: Vec<_> = list["rows"].as_array().unwrap().iter().map(|it| &it["name"]).collect();
+        assert_eq!(names.contains(&&json!("card")), draws, "{list}");
+        assert!(names.contains(&&json!("heading")) && names.contains(&&json!("fit")), "{list}");
+    }
+    let reply = without.post("card", &json!({}));
     assert_eq!(reply.status, 501, "{reply:?}");
     assert!(reply.body.contains("grouser card"), "{reply:?}");
 }
