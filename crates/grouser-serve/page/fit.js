@@ -7,6 +7,9 @@ import { about as aboutWheel, labelOf } from "./wheel.js";
 
 /** @typedef {import("./session.js").Session} Session */
 /** @typedef {import("./api.js").Key} Key */
+/** @typedef {import("./api.js").Line} Line */
+/** @typedef {import("./fits.js").Fits} Fits */
+/** @typedef {import("./fits.js").Made} Made */
 
 /** The fit of a soil. */
 export class FitAnswer extends StudyAnswer {
@@ -14,8 +17,9 @@ export class FitAnswer extends StudyAnswer {
    * @param {(error: Error | undefined) => void} ended
    * @param {() => void} started
    * @param {() => void} changed when trials are left out or taken back
+   * @param {Fits} fits that were made before
    */
-  constructor(ended, started, changed) {
+  constructor(ended, started, changed, fits) {
     super({
       start: "Fit the soil",
       hint: "The fit starts when you ask for it: least squares alone take seconds, a posterior takes minutes.",
@@ -23,7 +27,18 @@ export class FitAnswer extends StudyAnswer {
       failed: "no fit",
     }, ended, started);
     this.trials = new Trials(changed);
+    this.fits = fits;
+    fits.show = (made) => {
+      this.show(made);
+      ended(undefined);
+    };
+    /** The fit that is under way. @type {Omit<Made, "number" | "answer" | "shown"> | undefined} */
+    this.begun = undefined;
+    /** @type {Line | undefined} its object */
+    this.found = undefined;
+    fits.mark(undefined);
     this.element.prepend(this.trials.element);
+    this.body.before(fits.element);
   }
 
   /**
@@ -33,10 +48,45 @@ export class FitAnswer extends StudyAnswer {
   ask(session) {
     this.trials.ask(session);
     super.ask(session);
+    // What was fitted before needs no search.
+    const made = this.fits.of(JSON.stringify(this.question(session)));
+    if (made) this.show(made);
+  }
+
+  /** @override */
+  start() {
+    if (!this.session) return;
+    this.begun = { question: JSON.stringify(this.question(this.session)), session: structuredClone(this.session) };
+    super.start();
+  }
+
+  /**
+   * @override
+   * @param {Line} line
+   */
+  answer(line) {
+    this.found = line;
+  }
+
+  /**
+   * @override
+   * @param {Line} line
+   */
+  take(line) {
+    super.take(line);
+    if (this.begun && this.found) this.fits.keep({ ...this.begun, answer: this.found, shown: line });
+    this.begun = this.found = undefined;
+  }
+
+  /** @param {Made} made */
+  show(made) {
+    super.take(made.shown);
+    this.fits.mark(made.number);
   }
 
   /** @override */
   stop() {
+    this.begun = undefined;
     this.trials.stop();
     super.stop();
   }

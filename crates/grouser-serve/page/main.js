@@ -4,11 +4,12 @@ import { Asking, ask, list } from "./api.js";
 import { REMARK, VIEWS as ANSWERED } from "./engine.js";
 import { byId, element, save } from "./dom.js";
 import { CampaignAnswer, about as aboutCampaign } from "./campaigns.js";
-import { DesignAnswer, about as aboutDesign, namedKeys, wordsOf } from "./design.js";
+import { DesignAnswer, about as aboutDesign, nameOfEnd, namedKeys, wordsOf } from "./design.js";
 import { Dial } from "./dial.js";
 import { BLANK, DriveAnswer, aboutMission } from "./drive.js";
 import { BY_HAND, HandDrive } from "./hand.js";
 import { FitAnswer, choicesOfFit, optionsOf, partsOf, takePart } from "./fit.js";
+import { Fits } from "./fits.js";
 import { LogAnswer } from "./log.js";
 import { Card, announce, cardOf, chartOf, exportOf } from "./heading.js";
 import { MapAnswer, offer, saidOf } from "./map.js";
@@ -39,6 +40,12 @@ let design;
 let campaigns;
 /** @type {FitAnswer | undefined} */
 let fit;
+/** Fits that were made; one that is taken up makes the session what it was. */
+const fits = new Fits((made) => {
+  session = { ...structuredClone(made.session), view: "fit" };
+  reflect();
+  begin();
+});
 /** @type {LogAnswer | undefined} */
 let log;
 /** @type {string[]} */
@@ -49,6 +56,8 @@ let maps = [];
 let areas = [];
 /** @type {import("./fit.js").DataSet[]} */
 let dataSets = [];
+/** Questions that the engine answers. @type {Set<string>} */
+let answered = new Set();
 /** Keys that the sliders do not have: what of a scenario makes no difference to a heading. */
 const GRAVITY = "scenario.gravity_m_s2";
 const MOST_PINNED = 2;
@@ -190,7 +199,7 @@ function begin() {
   if (session.view === "design") {
     asking.ask("design-task", aboutDesign(session), (line) => {
       sliders = [];
-      place.replaceChildren(element("h2", {}, ["Move"]), ...namedKeys(line.keys ?? [], line.measures ?? []).map(ofKey), ...trades(line.measures ?? []));
+      place.replaceChildren(element("h2", {}, ["Move"]), ...namedKeys(line.keys ?? [], line.measures ?? []).map(ofKey), bounds(line.free ?? []), ...trades(line.measures ?? []));
       design = new DesignAnswer(ended, begun);
       answer.replaceChildren(design.element);
       moved();
@@ -212,7 +221,7 @@ function begin() {
     const names = line.names ?? {};
     sliders = [];
     if (isFit) {
-      fit = new FitAnswer(ended, begun, moved);
+      fit = new FitAnswer(ended, begun, moved, fits);
       place.replaceChildren(
         element("h2", {}, ["Fit"]), ...partsOf(session, dataSets.find(({ name }) => name === session.data), takeData), ...choicesOfFit(session, keys, moved), group(`Start: ${names["soil"]}`, of("soil"), false),
       );
@@ -279,6 +288,14 @@ function courses() {
   } }, Object.entries(options).map(([value, text]) => element("option", { value, selected: value === session.which }, [text])));
   dial.element.hidden = session.which !== "fixed";
   return [element("div", { class: "slider" }, [element("label", {}, ["Course ", which])]), dial.element];
+}
+
+/**
+ * The ends between which numbers of a design are free.
+ * @param {import("./api.js").Key[]} free
+ */
+function bounds(free) {
+  return element("fieldset", { id: "bounds" }, [element("legend", {}, ["What is free, and between which ends"]), ...free.map((key) => ofKey(nameOfEnd(key)))]);
 }
 
 /**
@@ -462,7 +479,7 @@ function showCards() {
   const own = new Card(session, false, [pin], (error) => {
     ended(error);
     drawn();
-    out.replaceChildren(exportOf(own.shown, cardOf(own.session, own.shown?.command)));
+    out.replaceChildren(exportOf(own.shown, cardOf(own.session, own.shown?.command, answered.has("card"))));
   }, drawn);
   const others = pinned.map((other, index) => new Card(other, true, [
     element("button", { type: "button", onclick: () => {
@@ -512,7 +529,8 @@ function show(view) {
 
 /** Fills what there is to choose from. */
 async function choices() {
-  const [presets, documents, files, sets] = await Promise.all([list("presets"), list("documents"), list("files"), list("data-sets")]);
+  const [presets, documents, files, sets, questions] = await Promise.all([list("presets"), list("documents"), list("files"), list("data-sets"), list("questions")]);
+  answered = new Set(questions.map((row) => row["name"]));
   dataSets = /** @type {any} */ (sets);
   const paths = (/** @type {string} */ kind) => files.filter((row) => row["kind"] === kind).map((row) => row["path"]);
   maps = paths("map");

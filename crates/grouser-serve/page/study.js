@@ -140,6 +140,7 @@ export class StudyAnswer {
     if (this.hint.isConnected) this.hint.textContent = "The answer comes when it is computed to its end.";
     this.study.run(...this.question(this.session), (line) => {
       if (line.schema === "grouser.shown.v1") this.take(line);
+      else this.answer(line);
     }, (error) => {
       if (error) {
         this.first = this.failed;
@@ -149,6 +150,14 @@ export class StudyAnswer {
       }
       this.ended(error);
     });
+  }
+
+  /**
+   * Takes the object of the answer, before what is shown of it.
+   * @param {Line} line
+   */
+  answer(line) {
+    void line;
   }
 
   /** @param {Line} line */

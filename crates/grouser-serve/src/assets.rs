@@ -24,7 +24,7 @@ pub(crate) const PAGE: Asset =
     Asset { path: "/", ..asset!("index.html", "text/html; charset=utf-8") };
 
 /// Everything that it loads.
-pub(crate) static ASSETS: [Asset; 28] = [
+pub(crate) static ASSETS: [Asset; 29] = [
     asset!("page.css", "text/css; charset=utf-8"),
     asset!("main.js", SCRIPT),
     asset!("api.js", SCRIPT),
@@ -50,6 +50,7 @@ pub(crate) static ASSETS: [Asset; 28] = [
     asset!("design.js", SCRIPT),
     asset!("campaigns.js", SCRIPT),
     asset!("fit.js", SCRIPT),
+    asset!("fits.js", SCRIPT),
     asset!("trials.js", SCRIPT),
     asset!("log.js", SCRIPT),
     asset!("legs.js", SCRIPT),
