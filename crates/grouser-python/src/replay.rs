@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use grouser::document::columns::replay as columns;
 use grouser::document::given_file::GivenFile;
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::replay::{NothingToReplay, Replay, Replayer};
+use grouser::studies::replay::{NothingToReplay, Part, Replay, Replayer};
 use grouser_logs::{LogOptions, TelemetryError, TelemetryLog};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -39,22 +39,24 @@ type Replayed<'py> = (
 
 /// * `paths`: files of the telemetry; none for a text
 /// * `text`: CSV, in place of the file's
-/// * `slope_is_known`: whether the scenario's slope is that of the drive
+/// * `drive`: whether the scenario's slope is that of the drive, and where the part of it begins and
+///   ends that is replayed [s]
 /// * `sampling`: how many samples of soil and model, 0 to take both as known, and their seed
 /// * `how`: how the log is read
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how paths come from Python")]
-#[pyo3(signature = (scenario, paths, text, slope_is_known, sampling, how=(None, None)))]
+#[pyo3(signature = (scenario, paths, text, drive, sampling, how=(None, None)))]
 pub(crate) fn replay<'py>(
     py: Python<'py>,
     scenario: &Document,
     paths: Vec<PathBuf>,
     text: Option<String>,
-    slope_is_known: bool,
+    drive: (bool, Option<f64>, Option<f64>),
     sampling: (u32, u64),
     how: HowRead,
 ) -> PyResult<Replayed<'py>> {
     let (loaded, (count, seed)) = (scenario.scenario()?, sampling);
+    let (slope_is_known, from, to) = drive;
     let inputs = BandInputs::of_scenario(loaded);
     let samples = threads::detached(py, || inputs.samples(seed, count))?;
     let samples = samples.map_err(|error| Problem::Sampling(error).raised())?;
@@ -62,9 +64,11 @@ pub(crate) fn replay<'py>(
     let options = LogOptions::default().with_odometry(odometry_named(how.0.as_deref())?);
     let options = options.with_most_unpacked(bytes(how.1));
     let is_file = text.is_none();
+    let part = Part::new(from, to)
+        .map_err(|error| errors::parameter(error.to_string(), "to_s", to, "a time after from_s"))?;
     let found =
         threads::detached(py, || -> Result<(Replay, Vec<String>, Vec<GivenFile>), NoReplay> {
-            let mut replayer = Replayer::new(&loaded.value, slope);
+            let mut replayer = Replayer::new(&loaded.value, slope).within(part);
             let rover = &loaded.value.rover;
             let log = match text {
                 Some(text) => {

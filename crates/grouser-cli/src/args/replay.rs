@@ -41,6 +41,12 @@ pub(crate) struct ReplayArgs {
     /// nor pitch [°]. Without it the median of the slopes that roll and pitch give.
     #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
     pub(crate) slope_deg: Option<String>,
+    /// Replay the records from this time of the log on [s], as if it had no earlier ones.
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub(crate) from_s: Option<f64>,
+    /// Replay the records up to this time of the log [s], as if it had no later ones.
+    #[arg(long, value_name = "S", allow_hyphen_values = true)]
+    pub(crate) to_s: Option<f64>,
     /// Also log both sides, measured and predicted: an MCAP file for Foxglove and Rerun. With
     /// --out, a name alone is a file in DIR.
     #[arg(long, value_name = "FILE")]

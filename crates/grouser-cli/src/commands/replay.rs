@@ -28,10 +28,12 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     }
     let mut answer = question.answer("replay", &replay, log.given(), log.notes());
     let slope = args.slope_deg.as_ref().map_or(String::new(), |it| format!(" --slope-deg={it}"));
+    let ends = question.part.ends().into_iter().zip(["from-s", "to-s"]);
+    let part: String = ends.filter_map(|(end, name)| Some(format!(" --{name}={}", end?))).collect();
     let samples = sampling::flags(question.sampling);
     let odometry = args.telemetry.odometry_option();
     let repeat =
-        format!("grouser replay log.csv --scenario scenario.toml{slope}{samples}{odometry}");
+        format!("grouser replay log.csv --scenario scenario.toml{slope}{part}{samples}{odometry}");
     answer.next = next(&answer);
     if has_rover(&answer) {
         let line = match &args.output.out {
@@ -87,7 +89,7 @@ fn replay(args: &ReplayArgs, question: &ReplayQuestion) -> Result<(Replay, Telem
         None => Vec::new(),
     };
     let slope = scenario.ground.plane_slope().filter(|_| question.has_slope);
-    let mut replayer = Replayer::new(scenario, slope);
+    let mut replayer = Replayer::new(scenario, slope).within(question.part);
     let mut log = inputs::telemetry(&args.logs, &args.telemetry, &scenario.rover, None)?;
     while let Some(record) = log.next_record()? {
         replayer.update(record);

@@ -2,6 +2,7 @@
 
 use grouser::answers::replay::ReplayQuestion;
 use grouser::document;
+use grouser::studies::replay::Part;
 
 use super::telemetry::log_name;
 use super::{balanced_overrides, refuse_sampled_keys, scenario_source};
@@ -24,5 +25,7 @@ pub(crate) fn replay(args: &ReplayArgs) -> Result<ReplayQuestion, Failure> {
         refuse_sampled_keys(setting, scenario.uncertain.as_ref())?;
     }
     let (log, has_slope) = (log_name(&args.logs), args.slope_deg.is_some());
-    Ok(ReplayQuestion { log, scenario, has_slope, sampling })
+    let part = Part::new(args.from_s, args.to_s);
+    let part = part.map_err(|error| Failure::Usage(format!("--to-s: {error}")))?;
+    Ok(ReplayQuestion { log, scenario, has_slope, part, sampling })
 }

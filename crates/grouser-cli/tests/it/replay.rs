@@ -44,6 +44,39 @@ fn a_drive_beside_its_prediction() {
     assert!(!place.file("replayed/rover.toml").exists(), "nothing points to a rover");
 }
 
+/// A part of a log is replayed as if it had no other records, and its answer says which it is.
+#[test]
+fn a_part_of_a_log_is_replayed_alone() {
+    let place = driven();
+    let answer = place.json(&format!("{COMMAND} --from-s 20 --to-s 40"));
+    assert_eq!(
+        (number(&answer["inputs"]["from_s"]), number(&answer["inputs"]["to_s"])),
+        (20.0, 40.0)
+    );
+    let stretches = answer["stretches"].as_array().expect("stretches");
+    let ends: Vec<f64> = stretches.iter().map(|it| number(&it["time_s"])).collect();
+    assert!(ends[0] > 20.0 && ends[ends.len() - 1] <= 40.0, "{ends:?}");
+    let log = place.read("drive.csv");
+    let is_in = |line: &&str| {
+        let time = line.split(',').next().and_then(|it| it.parse::<f64>().ok());
+        time.is_none_or(|time| (20.0..=40.0).contains(&time))
+    };
+    place.write("part.csv", log.lines().filter(is_in).collect::<Vec<_>>().join("\n"));
+    let alone = place.json(&COMMAND.replace("drive.csv", "part.csv"));
+    for key in ["channels", "findings", "best_causes", "stretches", "points_to"] {
+        assert_eq!(answer[key], alone[key], "{key}");
+    }
+    let screen = place.results(&format!("{COMMAND} --from-s 20 --to-s 40"));
+    assert!(screen.contains(" from 20 s to 40 s"), "{screen}");
+    for (part, says) in [
+        ("--from-s 5 --to-s 5", "not after 5 s"),
+        ("--to-s 0.01", "nothing can be told from 1 record"),
+    ] {
+        let refused = place.line(&format!("{COMMAND} {part}"));
+        assert!(refused.code() == 2 && refused.stderr.contains(says), "{}", refused.stderr);
+    }
+}
+
 /// Without odometry, torques and sinkages nothing was compared, and the answer says so; whether a
 /// result is outside a domain is not looked for.
 #[test]

@@ -202,6 +202,7 @@ fn a_log_is_replayed_as_by_its_command() {
     let served = Served::start(&place, &["."]);
     for body in [
         json!({"log": "drive.csv", "soil": "toyoura"}),
+        json!({"log": "drive.csv", "soil": "toyoura", "from_s": 4, "to_s": 11.5}),
         json!({
             "log": "./drive.csv", "soil": "toyoura-uncertain", "samples": 8, "odometry": "visual",
             "model": "small-wheel", "set": {"soil.cohesion_kpa": 0.25},
@@ -215,6 +216,12 @@ fn a_log_is_replayed_as_by_its_command() {
         (json!({"log": "drive.csv", "odometry": "guess"}), "odometry", "visual"),
         (json!({"log": "drive.csv", "model": "all"}), "model", "one model"),
         (json!({"log": "drive.csv", "slope_deg": 4}), "slope_deg", ""),
+        (json!({"log": "drive.csv", "from_s": 9, "to_s": 3}), "to_s", "not after 9 s"),
+        (
+            json!({"log": "drive.csv", "from_s": 3, "to_s": 3.01}),
+            "log",
+            "nothing can be told from 1 ",
+        ),
     ] {
         let refused = served.refused("replay", &body);
         assert_eq!(refused["key"], key, "{body}: {refused}");

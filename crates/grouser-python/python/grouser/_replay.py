@@ -32,6 +32,8 @@ def replay(
     /,
     *,
     slope_deg: float | None = None,
+    from_s: float | None = None,
+    to_s: float | None = None,
     odometry: str | None = None,
     max_unpacked_mib: int | None = None,
     uncertainty: bool = False,
@@ -53,6 +55,8 @@ def replay(
     slope_deg : float, optional
         Slope of the plane of the free run, and of the ground where the telemetry has neither roll
         nor pitch [°]; without it the median of the slopes that roll and pitch give.
+    from_s, to_s : float, optional
+        Replay the records from and up to these times alone [s], as if the log had no others.
     odometry : str, optional
         What measured ways and rotations, in place of what a mapping says: ``"visual"``,
         ``"wheels"`` (which show no slip, and are left out), ``"fused"`` with wheels, or
@@ -108,11 +112,11 @@ def replay(
         raise ParameterError(f"samples is {count}, it must be from 2 to 100000", "samples")
     run = scenario_of(scenario, changes)
     paths, text = _source(log)
-    known = slope_deg is not None
+    drive = (slope_deg is not None, from_s, to_s)
     drawn = count if uncertainty else 0
     sampling, budget = (drawn, whole_number("seed", seed)), budget_of(max_unpacked_mib)
     tables, points_to, notes, wheels, files = _core.replay(
-        run._document, paths, text, known, sampling, (odometry, budget)
+        run._document, paths, text, drive, sampling, (odometry, budget)
     )
     over_time, channels, findings = tables
     attrs = {

@@ -6,10 +6,11 @@ use std::path::PathBuf;
 
 use grouser::answers::replay::ReplayQuestion;
 use grouser::answers::{Answer, AnswerError, AnswerOptions, Sampling};
+use grouser::document::columns::replay::{FROM, TO};
 use grouser::document::given_file::GivenFile;
 use grouser::document::measurements::telemetry::Odometry;
 use grouser::studies::ensemble::samples::BandInputs;
-use grouser::studies::replay::Replayer;
+use grouser::studies::replay::{Part, Replayer};
 use grouser_draw::title_of;
 use grouser_logs::{LogOptions, OptionNames, TelemetryError, TelemetryLog};
 use http::StatusCode;
@@ -26,6 +27,8 @@ use crate::refusal::Refusal;
 
 /// Bytes of a log at the most: while it is read it is kept whole.
 const MOST_BYTES: u64 = 64 << 20;
+/// Times of logs [s].
+const TIMES: std::ops::RangeInclusive<f64> = -1e12..=1e12;
 /// Rows of a log between two looks at whether somebody still waits.
 const ROWS_UNWATCHED: u64 = 1000;
 
@@ -62,6 +65,11 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
         name.ok_or_else(|| Refusal::of_key("log", "it must be the path of a log in the folder"))?;
     let kind = fields.text("odometry")?;
     let odometry = kind.as_deref().map(odometry).transpose()?;
+    let times = [FROM.name, TO.name].map(|key| fields.number(key, &TIMES));
+    let [from, to] = times;
+    let (from, to) = (from?, to?);
+    let part = Part::new(from, to);
+    let part = part.map_err(|error| Refusal::of_key(TO.name, error.to_string()))?;
     let parts = ScenarioParts::of(&fields)?;
     let stages = Stages::of(&fields, None)?.in_turn();
     fields.finish()?;
@@ -76,7 +84,10 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     line.word(&name);
     parts.add_options(&mut line);
     line.maybe("odometry", kind.as_deref());
-    let question = ReplayQuestion { log: name, scenario, has_slope: false, sampling: None };
+    for (option, end) in [("from-s", from), ("to-s", to)] {
+        line.maybe(option, end.map(|it| it.to_string()).as_deref());
+    }
+    let question = ReplayQuestion { log: name, scenario, has_slope: false, part, sampling: None };
     let folder = console.folder.clone();
     let asked = ReplayAsked { question, folder, path, odometry, read: RefCell::default() };
     Ok(stages.question(asked, line))
@@ -91,14 +102,14 @@ fn odometry(kind: &str) -> Result<Odometry, Refusal> {
 
 impl ReplayAsked {
     fn log(&self, go_on: &(dyn Fn() -> bool + Sync)) -> Result<ReadLog, Refusal> {
-        let ReplayQuestion { log: label, scenario, .. } = &self.question;
+        let ReplayQuestion { log: label, scenario, part, .. } = &self.question;
         let bytes = self.folder.read(&self.path, MOST_BYTES);
         let bytes = bytes.map_err(|problem| Refusal::of_key("log", problem.to_string()))?;
         let source = Box::new(Cursor::new(bytes));
         let options = LogOptions::default().with_odometry(self.odometry);
         let log = TelemetryLog::of_table(label, source, &scenario.value.rover, &options);
         let mut log = log.map_err(unread)?;
-        let mut replayer = Replayer::new(&scenario.value, None);
+        let mut replayer = Replayer::new(&scenario.value, None).within(*part);
         while let Some(record) = log.next_record().map_err(unread)? {
             replayer.update(record);
             if log.rows() % ROWS_UNWATCHED == 0 && !go_on() {

@@ -9,7 +9,7 @@ use serde_json::json;
 use super::{Answer, Attached, Displayed, Member, Sampling, meanings, samples, setting};
 use crate::document::LoadedScenario;
 use crate::document::columns::replay::{
-    self as columns, FINDINGS, STRETCH, WORK, brief_channels, brief_findings, columns_of,
+    self as columns, FINDINGS, FROM, STRETCH, TO, WORK, brief_channels, brief_findings, columns_of,
     measured_channels, prefix_of, quantity_of,
 };
 use crate::document::columns::{ENERGY, SLOPE, TIME};
@@ -19,7 +19,7 @@ use crate::document::reading::{capitalised, counted, four_digits, sentence};
 use crate::document::table::Table;
 use crate::studies::ensemble::samples::BandInputs;
 use crate::studies::learn::{GrossFault, Suspect};
-use crate::studies::replay::{Channel, Prediction, Replay};
+use crate::studies::replay::{Channel, Part, Prediction, Replay};
 use crate::vehicle::Rover;
 
 /// The file of a rover whose wheels have the radius that a drive points to.
@@ -37,6 +37,8 @@ pub struct ReplayQuestion {
     pub scenario: LoadedScenario,
     /// Whether the slope is the scenario's, and not the log's.
     pub has_slope: bool,
+    /// The part of the log.
+    pub part: Part,
     /// The samples of its bands, if it has any.
     pub sampling: Option<Sampling>,
 }
@@ -116,6 +118,9 @@ impl ReplayQuestion {
         answer.inputs_of(document, ["rover", "soil"]);
         let slope = document.get(SLOPE.name).filter(|_| self.has_slope);
         answer.input(SLOPE.name, slope.cloned().unwrap_or_default());
+        for (end, quantity) in self.part.ends().into_iter().zip([FROM, TO]) {
+            answer.input(quantity.name, end);
+        }
         answer.inputs_of(document, ["gravity_m_s2", "load_transfer", "wheel_moments"]);
         answer.input("model", self.scenario.value.model.name());
         answer.input("samples", self.sampling.map(|it| it.count));
@@ -171,6 +176,10 @@ impl Found<'_> {
         });
         answer.results = vec![
             Member::Value("points_to", json!(self.sentences)),
+            Member::Value(
+                "best_causes",
+                json!(replay.best_causes().iter().map(|(it, _)| it.name()).collect::<Vec<_>>()),
+            ),
             Member::rows("findings", Arc::clone(&self.findings)),
             Member::rows("channels", Arc::clone(&self.channels)),
         ];
@@ -211,8 +220,12 @@ impl Found<'_> {
             )
         });
         let stretches = counted(stretches as u64, "stretch", "stretches");
-        let compared = format!("replayed {stretches} of {}", counted(records, "record", "records"));
-        [compared].into_iter().chain(work).collect()
+        let ends = self.replay.part.ends().into_iter().zip(["from", "to"]);
+        let ends: String =
+            ends.filter_map(|(end, word)| Some(format!(" {word} {} s", end?))).collect();
+        let records = counted(records, "record", "records");
+        let compared = format!("replayed {stretches} of {records}{ends}");
+        [compared].into_iter().chain(columns::best_in_words(self.replay)).chain(work).collect()
     }
 
     /// Two charts of each channel: both sides over time, and the residual.

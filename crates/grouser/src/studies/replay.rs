@@ -23,6 +23,7 @@ mod channel;
 mod differences;
 mod faults;
 mod free_run;
+mod part;
 mod prescribed;
 mod track;
 
@@ -31,13 +32,14 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use self::attribution::Sums;
-pub use self::attribution::{Attribution, Finding};
+pub use self::attribution::{Alone, Attribution, Finding};
 pub use self::channel::{Channel, ChannelSummary, ChannelValue, Prediction};
 use self::differences::Differences;
 use self::faults::Faults;
 pub use self::faults::{Cause, Parameter};
 use self::free_run::Commands;
 pub use self::free_run::{Ended, FreeRun};
+pub use self::part::{EmptyPart, Part};
 pub(super) use self::prescribed::{Predicted, Situation, measured, wheel_speeds};
 pub use self::track::Pose;
 use self::track::Track;
@@ -55,6 +57,7 @@ pub struct Replayer {
     scenario: Scenario,
     study: HeadingStudy,
     slope: Option<f64>,
+    part: Part,
     gatherer: Gatherer,
     track: Track,
     /// The measured pose where the stretch that is being gathered began.
@@ -107,6 +110,8 @@ pub struct Replay {
     pub energy: Option<[f64; 2]>,
     /// What was taken of the telemetry.
     pub taken: Taken,
+    /// The part of it that this is of.
+    pub part: Part,
     /// Every n-th stretch is compared.
     pub every: usize,
     /// Stretches that were not predicted in prescribed motion, by why.
@@ -114,6 +119,20 @@ pub struct Replay {
 }
 
 impl Replay {
+    /// The causes that explain most of the differences if each is taken to be the only one, with
+    /// the share that it explains then [-]: at most three, the one with the most evidence first.
+    /// One with less evidence than the absence of all of them is left out.
+    #[must_use]
+    pub fn best_causes(&self) -> Vec<(Cause, f64)> {
+        const MOST: usize = 3;
+        let mut best: Vec<(&Finding, Cause)> =
+            self.findings.iter().map(|it| (it, it.parameter.cause())).collect();
+        best.dedup_by_key(|(_, cause)| *cause);
+        best.retain(|(it, _)| it.alone.evidence > 0.0);
+        best.sort_by(|(one, _), (other, _)| other.alone.evidence.total_cmp(&one.alone.evidence));
+        best.into_iter().take(MOST).map(|(it, cause)| (cause, it.alone.share)).collect()
+    }
+
     /// Why no stretch could be predicted, most often, where none could: nothing of the drive was
     /// compared then.
     #[must_use]
@@ -161,8 +180,15 @@ impl NotPredicted {
 
 /// Why there is nothing to replay.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the telemetry has no stretch to replay: wheel speeds over two records or more are needed")]
-pub struct NothingToReplay;
+#[error(
+    "nothing can be told from {records} {}: a stretch to replay needs wheel speeds over two \
+     records or more",
+    if *records == 1 { "record" } else { "records" }
+)]
+pub struct NothingToReplay {
+    /// Records that were taken.
+    pub records: u64,
+}
 
 impl Replayer {
     /// * `scenario`: its rover, soil, model, gravity and load transfer are used
@@ -174,6 +200,7 @@ impl Replayer {
             gatherer: Gatherer::new(&scenario.rover, slope),
             scenario: scenario.clone(),
             slope,
+            part: Part::default(),
             track: Track::default(),
             opened: None,
             commands: Commands::default(),
@@ -184,8 +211,17 @@ impl Replayer {
         }
     }
 
+    /// Replays a part of the telemetry, as if it had no other records.
+    #[must_use]
+    pub fn within(self, part: Part) -> Self {
+        Self { part, ..self }
+    }
+
     /// Takes a record.
     pub fn update(&mut self, record: TelemetryRecord) {
+        if !self.part.has(record.time) {
+            return;
+        }
         self.taken.records += 1;
         let time = record.time;
         self.gross.read(&record);
@@ -263,8 +299,9 @@ impl Replayer {
         if let Some(stretch) = self.gatherer.take() {
             self.take(stretch);
         }
-        if self.kept.is_empty() {
-            return Err(NothingToReplay);
+        // What one record has is no stretch of a drive.
+        if self.kept.iter().all(|it| it.stretch.time[0] == it.stretch.time[1]) {
+            return Err(NothingToReplay { records: self.taken.records });
         }
         let nominal = Sample { soil: self.study.soil, model: self.study.model.clone() };
         let slope = self.plane();
@@ -291,7 +328,7 @@ impl Replayer {
         };
         let channels = channels.into_iter().enumerate().filter_map(summary).collect();
         let energy = energy(&stretches);
-        let Self { taken, every, .. } = self;
+        let Self { taken, part, every, .. } = self;
         Ok(Some(Replay {
             stretches,
             channels,
@@ -301,6 +338,7 @@ impl Replayer {
             free_run,
             energy,
             taken,
+            part,
             every,
             not_predicted,
         }))

@@ -7,7 +7,9 @@ use grouser::document::columns::replay::sentences;
 use grouser::simulation::Run;
 use grouser::studies::ensemble::samples::{BandInputs, Sample};
 use grouser::studies::learn::TelemetryRecord;
-use grouser::studies::replay::{Attribution, Cause, Channel, Finding, Parameter, Replay, Replayer};
+use grouser::studies::replay::{
+    Attribution, Cause, Channel, Finding, NothingToReplay, Parameter, Part, Replay, Replayer,
+};
 use grouser::studies::simulated_telemetry::{SensorModels, truth};
 use grouser::units::deg;
 use grouser::vehicle::{roll_and_pitch, slope_and_yaw};
@@ -72,6 +74,19 @@ fn replay_with(
     replayer.finish(samples, &|| true).unwrap().unwrap()
 }
 
+/// A replay of a part of a drive.
+fn replay_part(
+    records: &[TelemetryRecord],
+    [from, to]: [f64; 2],
+) -> Result<Replay, NothingToReplay> {
+    let part = Part::new(Some(from), Some(to)).unwrap();
+    let mut replayer = Replayer::new(&scenario(&[MODEL]).value, None).within(part);
+    for record in records {
+        replayer.update(record.clone());
+    }
+    Ok(replayer.finish(&[], &|| true)?.unwrap())
+}
+
 /// Telemetry whose roll and pitch tell another slope and yaw.
 fn misread(
     mut records: Vec<TelemetryRecord>,
@@ -121,6 +136,33 @@ fn where_nothing_is_off_nothing_is_pointed_to() {
         assert_eq!(pointed(&found), [], "{:#?}", found.findings);
         assert!(found.explained_stretches > 40, "{}", found.explained_stretches);
     }
+}
+
+/// A sensor of the attitude that slips halfway: each half of the drive is judged by itself, as if
+/// the log had no other, and of too little nothing is said.
+#[test]
+fn a_part_of_a_drive_is_explained_by_itself() {
+    let mut records = telemetry(&[], &LEGS, SensorModels::USUAL);
+    let late = records.split_off(records.len() / 2);
+    let half = late[0].time;
+    records.extend(misread(late, |[slope, yaw]| [slope - deg(3.0), yaw]));
+    let [start, end] = [records[0].time, records[records.len() - 1].time];
+    let early = replay_part(&records, [start, half - 0.05]).unwrap();
+    assert_eq!((pointed(&early), early.best_causes().len()), (Vec::new(), 0), "{early:#?}");
+    let late = replay_part(&records, [half, end]).unwrap();
+    let best = late.best_causes();
+    assert_eq!(best[0].0, Cause::Slope, "{best:?}");
+    assert!(best[0].1 > 0.3 && best.len() <= 3, "{best:?}");
+    assert!(best.windows(2).all(|pair| pair[0].1 >= pair[1].1 - 0.1), "{best:?}");
+    // The same records alone have the same answer.
+    let alone = records.iter().filter(|it| it.time >= half).cloned().collect();
+    let alone = Replay { part: late.part, ..replay(alone) };
+    assert_eq!(alone, late);
+    // One record has no stretch.
+    let none = replay_part(&records, [half, half + 0.01]).unwrap_err();
+    assert_eq!(none, NothingToReplay { records: 1 });
+    assert!(none.to_string().starts_with("nothing can be told from 1 record:"));
+    assert!(Part::new(Some(2.0), Some(2.0)).is_err());
 }
 
 /// A log of attitude and wheel speeds alone is compared with nothing: that is no agreement. With

@@ -3,7 +3,7 @@
 
 use super::super::reading::counted;
 use super::super::table::Table;
-use super::super::unit::{DEG, ONE, Unit};
+use super::super::unit::{DEG, ONE, S, Unit};
 use super::learn::gross_in_words;
 use super::run::{FORWARD_SPEED, LATERAL_SPEED, YAW_RATE};
 use super::slip_from_current::WHEEL;
@@ -40,6 +40,12 @@ pub const ESTIMATE: &str = "estimate";
 pub const DEVIATION: &str = "deviation";
 /// How much of the differences a cause explains.
 pub const SHARE: &str = "share";
+/// The same of a cause as the only one.
+pub const SHARE_ALONE: &str = "share_alone";
+/// Where the part of a log begins that is replayed, and where it ends.
+pub const FROM: Quantity = quantity("from_s", S);
+/// The other end.
+pub const TO: Quantity = quantity("to_s", S);
 /// What the differences say of it.
 pub const FINDING: &str = "finding";
 /// What cannot be told apart from it.
@@ -212,7 +218,7 @@ pub const fn quantity_of_parameter(parameter: Parameter) -> Quantity {
 }
 
 /// The columns of [`findings`].
-pub const FINDINGS: [Column<Finding>; 9] = [
+pub const FINDINGS: [Column<Finding>; 10] = [
     text(CAUSE, "What may be wrong", |it| Some(it.parameter.cause().name().to_owned())),
     text(
         FINDING,
@@ -247,6 +253,13 @@ pub const FINDINGS: [Column<Finding>; 9] = [
         ONE,
         "Evidence for the cause, ln of the Bayes factor: very strong above 5",
         |it| it.evidence,
+    ),
+    number(
+        SHARE_ALONE,
+        ONE,
+        "Share that the cause explains if it is the only one; causes that do the same on this \
+         drive explain the same",
+        |it| it.alone.share,
     ),
     words(RIVALS, "Causes that explain the differences as well", |it| match &it.verdict {
         Attribution::Underdetermined(rivals) => rivals.iter().map(|it| it.name()).collect(),
@@ -299,8 +312,9 @@ const NOTHING: &str =
 const CANNOT_TELL: &str = "cannot tell";
 
 fn differences_in_words(replay: &Replay) -> Vec<String> {
+    let records = counted(replay.taken.records, "record", "records");
     if replay.explained_stretches == 0 {
-        return vec![format!("{CANNOT_TELL}: no stretch could be predicted")];
+        return vec![format!("{CANNOT_TELL}: no stretch of {records} could be predicted")];
     }
     let is_pointed_to = |it: &Finding| {
         matches!(it.verdict, Attribution::PointsTo | Attribution::Underdetermined(_))
@@ -314,7 +328,8 @@ fn differences_in_words(replay: &Replay) -> Vec<String> {
     const UNCERTAIN: &str = "what was read on this drive leaves them as uncertain as before";
     if hidden.len() == Cause::ALL.len() {
         let why = missing_readings(replay).unwrap_or_else(|| UNCERTAIN.to_owned());
-        return vec![format!("{CANNOT_TELL}: {why}")];
+        let of = if replay.part.is_whole() { String::new() } else { format!(" from {records}") };
+        return vec![format!("{CANNOT_TELL}{of}: {why}")];
     }
     if sentences.is_empty() {
         sentences.push(NOTHING.to_owned());
@@ -323,6 +338,18 @@ fn differences_in_words(replay: &Replay) -> Vec<String> {
         sentences.push(format!("{CANNOT_TELL} of {}: {UNCERTAIN}", hidden.join(", ")));
     }
     sentences
+}
+
+/// What each of the best causes explains as the only one; nothing where none explains anything.
+#[must_use]
+pub fn best_in_words(replay: &Replay) -> Option<String> {
+    let best: Vec<String> = replay
+        .best_causes()
+        .iter()
+        .map(|(cause, share)| format!("{} {:.0} %", cause.name(), 100.0 * share))
+        .collect();
+    (!best.is_empty())
+        .then(|| format!("each as the only cause explains of the differences: {}", best.join(", ")))
 }
 
 /// The causes of some findings, each with the share of the differences that it explains.

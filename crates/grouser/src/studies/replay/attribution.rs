@@ -81,6 +81,17 @@ pub struct Finding {
     pub evidence: f64,
     /// What the differences say of its cause.
     pub verdict: Attribution,
+    /// Its cause as the only one.
+    pub alone: Alone,
+}
+
+/// A cause as the only one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alone {
+    /// The share of the squares of the differences that it explains [-].
+    pub share: f64,
+    /// The evidence for it, ln of the Bayes factor over no cause at all [-].
+    pub evidence: f64,
 }
 
 /// A fit of the parameters of some causes.
@@ -139,7 +150,14 @@ impl Sums {
             let before = &causes[..found.unwrap_or(causes.len())];
             let with: Vec<Cause> = before.iter().copied().chain([cause]).collect();
             let (without, with) = (self.fit(before), self.fit(&with));
-            let share = (with.explained - without.explained) / self.square.max(f64::MIN_POSITIVE);
+            let square = self.square.max(f64::MIN_POSITIVE);
+            let share = (with.explained - without.explained) / square;
+            let only = self.fit(&[cause]);
+            let nothing = self.fit(&[]);
+            let alone = Alone {
+                share: (only.explained - nothing.explained) / square,
+                evidence: only.evidence - nothing.evidence,
+            };
             let rival = taken.iter().find(|(_, rivals)| rivals.contains(&cause));
             let verdict = match (found.map(|place| &taken[place].1), rival) {
                 (Some(rivals), _) if rivals.is_empty() => Attribution::PointsTo,
@@ -168,6 +186,7 @@ impl Sums {
                     share,
                     evidence,
                     verdict: verdict.clone(),
+                    alone,
                 }
             };
             parameters.map(finding).collect::<Vec<_>>()
