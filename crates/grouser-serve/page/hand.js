@@ -3,7 +3,7 @@
 
 import { ask } from "./api.js";
 import { DriveAnswer } from "./drive.js";
-import { element, four } from "./dom.js";
+import { element, four, save } from "./dom.js";
 import { about as aboutRover } from "./heading.js";
 
 /** @typedef {import("./session.js").Session} Session */
@@ -76,6 +76,9 @@ export class HandDrive extends DriveAnswer {
     this.state = undefined;
     /** What the drive is of, as text. */
     this.asked = "";
+    /** What the rover's instruments would have said, as CSV in pieces. @type {string[]} */
+    this.telemetry = [];
+    this.reader = element("p", { class: "setup", id: "drive-command", hidden: true });
     this.isGoing = false;
     this.drawnAt = 0;
     /** How long a step takes, on the average of the last ones [s]. */
@@ -112,8 +115,10 @@ export class HandDrive extends DriveAnswer {
         ]),
         element("div", { class: "choice" }, [
           element("label", {}, ["Pace ", pace]),
-          element("button", { type: "button", id: "anew", onclick: () => this.begin() }, ["Start anew"]), this.rate,
+          element("button", { type: "button", id: "anew", onclick: () => this.begin() }, ["Start anew"]),
+          element("button", { type: "button", id: "save-drive", onclick: () => this.saveDrive() }, ["Save the drive"]), this.rate,
         ]),
+        this.reader,
       ]),
     ]);
   }
@@ -216,12 +221,20 @@ export class HandDrive extends DriveAnswer {
     if (this.held.size) this.go();
   }
 
+  /** Saves the drive so far as telemetry, and says what reads it. */
+  saveDrive() {
+    save("drive.csv", this.telemetry.join(""));
+    this.reader.hidden = false;
+  }
+
   /** Stands at the start. */
   async begin() {
     this.steps.abort();
     this.steps = new AbortController();
     this.held.clear();
     this.state = undefined;
+    this.telemetry = [];
+    this.reader.hidden = true;
     this.scene.way = [];
     this.scene.standing = undefined;
     this.scene.target = undefined;
@@ -289,7 +302,7 @@ export class HandDrive extends DriveAnswer {
     const { signal } = this.steps;
     const isFirst = !this.state;
     const question = {
-      ...this.question(), rim_speed_m_s: this.rims(), dt_s: span, ...(this.state ? { state: this.state } : {}), ...(hasScene ? { scene: true } : {}),
+      ...this.question(), rim_speed_m_s: this.rims(), dt_s: span, telemetry: true, ...(this.state ? { state: this.state } : {}), ...(hasScene ? { scene: true } : {}),
     };
     try {
       await ask("drive-step", question, signal, (line) => {
@@ -307,6 +320,8 @@ export class HandDrive extends DriveAnswer {
     const { samples } = this.run;
     const isFollowed = this.place >= samples.length - 1;
     this.state = line.state;
+    this.telemetry.push(line.telemetry.csv);
+    this.reader.replaceChildren("drive.csv is telemetry, which the view Log and ", element("code", {}, [line.telemetry.command]), " read.");
     for (const sample of isFirst ? line.samples : line.samples.slice(1)) {
       const before = samples.at(-1);
       const span = sample.time_s - (before?.time_s ?? sample.time_s);

@@ -2,15 +2,18 @@
 //! state comes with each question, and goes with the answer.
 
 use grouser::document::columns::run::RunObject;
+use grouser::document::measurements::telemetry::{csv_header, csv_line};
 use grouser::document::{LoadedScenario, RIM_SPEED_M_S, json, mark_of};
 use grouser::simulation::{
     Observation, Outcome, Record, Run, RunError, Scenario, State, Trajectory,
 };
+use grouser::studies::simulated_telemetry::truth;
 use grouser::terrain::Shape;
 use grouser_draw::{base64, from_base64, title_of};
 use http::StatusCode;
 use serde_json::{Value, json};
 
+use super::command::CommandLine;
 use super::fields::AskedFields;
 use super::parts::{RunSettings, ScenarioParts};
 use super::staged::scene_of;
@@ -19,6 +22,7 @@ use crate::console::Console;
 use crate::refusal::Refusal;
 
 const STATE: &str = "state";
+const TELEMETRY: &str = "telemetry";
 const RIM_SPEEDS: &str = "rim_speed_m_s";
 /// How long a step may be [s].
 const SPANS: std::ops::RangeInclusive<f64> = 0.01..=10.0;
@@ -39,6 +43,8 @@ struct StepAsked {
     /// How long it is [s].
     span: f64,
     has_scene: bool,
+    /// The command that reads the telemetry of the drive, where that is asked for.
+    read_by: Option<CommandLine>,
 }
 
 pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> {
@@ -49,6 +55,7 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let speeds = fields.numbers(RIM_SPEEDS, &RIM_SPEED_M_S, &[0.0])?;
     let span = fields.number("dt_s", &SPANS)?.unwrap_or(RECORD);
     let has_scene = fields.truth("scene")?;
+    let has_telemetry = fields.truth(TELEMETRY)?;
     fields.finish()?;
     if parts.common().has_every_model() {
         let message = "a drive is of one model: name one, or leave it out";
@@ -58,7 +65,13 @@ pub(super) fn read(console: &Console, body: &[u8]) -> Result<Question, Refusal> 
     let mark = mark_of_run(&scenario);
     let state = state.map(|text| state_of(&text, mark, &scenario.value)).transpose()?;
     let rim_speeds = of_each_wheel(&speeds, &scenario.value)?;
-    let asked = StepAsked { scenario, mark, state, rim_speeds, span, has_scene };
+    let read_by = has_telemetry.then(|| {
+        let mut line = CommandLine::new("replay");
+        line.word("drive.csv");
+        parts.add_options(&mut line);
+        line
+    });
+    let asked = StepAsked { scenario, mark, state, rim_speeds, span, has_scene, read_by };
     Ok(Question::new(move |go_on, send| {
         let is_quick = asked.scenario.value.ground.is_plane() && !asked.has_scene;
         let turn = if is_quick { None } else { go_on.turn() };
@@ -149,11 +162,27 @@ impl StepAsked {
         answer["outcome"] = json!(outcome.as_ref().map(Outcome::name));
         answer["reason"] = json!(outcome.as_ref().and_then(Outcome::reason));
         answer[STATE] = json!(base64(&state));
+        if let Some(command) = &self.read_by {
+            answer[TELEMETRY] =
+                json!({ "csv": self.telemetry(&driven, scenario), "command": command.text() });
+        }
         if self.has_scene {
             let scene = scene_of(&title_of(&self.scenario), &driven, scenario);
             answer["scene"] = json!(base64(&scene));
         }
         Ok(answer)
+    }
+
+    /// What perfect instruments say of the step, as lines that follow those of the step before: the
+    /// first step has the header, and the others leave out their first record, which is the last of
+    /// the step before.
+    fn telemetry(&self, driven: &Trajectory, scenario: &Scenario) -> String {
+        let (header, known) = match self.state {
+            None => (csv_header(&scenario.rover), 0),
+            Some(_) => (String::new(), 1),
+        };
+        let seen = truth(driven, scenario);
+        [header].into_iter().chain(seen[known..].iter().map(csv_line)).collect()
     }
 
     /// The run before the step: where its state has it, or at the start with the wheels turning as

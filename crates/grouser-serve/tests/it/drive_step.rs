@@ -3,6 +3,7 @@
 
 use grouser::document::{self, Overrides, Source};
 use grouser::simulation::{Observation, Run};
+use grouser_serve::Settings;
 use serde_json::{Value, json};
 
 use crate::served::Served;
@@ -61,6 +62,37 @@ fn a_drive_turns_stands_and_ends() {
     // A drive that has ended stays where it is.
     let after = step(&server, ended["state"].as_str(), &steep);
     assert_eq!((&after["outcome"], &after["samples"][0]), (&ended["outcome"], &after["final"]));
+}
+
+/// A drive that is saved is a log, of one header and a row for each tenth of a second: what replays
+/// logs finds nothing wrong with it.
+#[test]
+fn a_drive_is_a_log_that_is_replayed() {
+    let folder = tempfile::tempdir().unwrap();
+    let place = folder.path().to_owned();
+    let server = Served::start(&Settings { folder: Some(place.clone()), ..Settings::default() });
+    let mut csv = String::new();
+    let mut state: Option<String> = None;
+    for rims in [json!(0.06), json!([0.05, 0.06]), json!(0.06), json!([0.06, 0.05])] {
+        let asked = json!({"rim_speed_m_s": rims, "dt_s": 10, "telemetry": true});
+        let answer = step(&server, state.as_deref(), &asked);
+        state = answer["state"].as_str().map(str::to_owned);
+        csv.push_str(answer["telemetry"]["csv"].as_str().unwrap());
+        assert_eq!(answer["telemetry"]["command"], "grouser replay drive.csv --soil toyoura");
+    }
+    let times: Vec<f64> =
+        csv.lines().skip(1).map(|line| line.split(',').next().unwrap().parse().unwrap()).collect();
+    assert!(csv.starts_with("time_s,") && times.len() == 401, "{} rows", times.len());
+    assert!(times.windows(2).all(|pair| (pair[1] - pair[0] - 0.1).abs() < 1e-9));
+    std::fs::write(place.join("drive.csv"), csv).unwrap();
+    let reply = server.post("replay", &json!({"log": "drive.csv", "soil": "toyoura"}));
+    assert_eq!(reply.status, 200, "{reply:?}");
+    let found = reply.lines().into_iter().find(|it| it["schema"] == "grouser.replay.v1").unwrap();
+    let said = found["points_to"][0].as_str().unwrap();
+    assert!(said.contains("point to nothing"), "{said}");
+    let channels = found["channels"].as_array().unwrap();
+    let forward = channels.iter().find(|it| it["channel"] == "forward_speed_m_s").unwrap();
+    assert!(forward["rms"].as_f64().unwrap() < 2e-3, "{forward}");
 }
 
 #[test]

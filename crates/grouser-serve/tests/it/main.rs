@@ -5,6 +5,7 @@ mod answers;
 mod campaign;
 mod card;
 mod design;
+mod drive_kinds;
 mod drive_step;
 mod fit;
 mod folder;
