@@ -46,6 +46,40 @@ AXE = """async (impacts) => {
 }"""
 
 
+#: How far the arrows of a scene, as three.js loads it, are from the forces of the records of its run on a
+#: plane, over the largest force: of the slope, then the yaw, the steering and the wheel's own frame.
+ARROWS = r"""async ([asked, slope]) => {
+  const [THREE, { GLTFLoader }] = await Promise.all([import('three'), import('three/addons/loaders/GLTFLoader.js')]);
+  const reply = await fetch('/api/traverse', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(asked) });
+  const [run, { scene: content }] = (await reply.text()).trim().split('\n').map((line) => JSON.parse(line));
+  const bytes = Uint8Array.from(atob(content), (letter) => letter.charCodeAt(0));
+  const { scene, animations: [clip] } = await new GLTFLoader().parseAsync(bytes.buffer, '');
+  const mixer = new THREE.AnimationMixer(scene);
+  const action = mixer.clipAction(clip).setLoop(THREE.LoopOnce, 1);
+  action.clampWhenFinished = true;
+  action.play();
+  let [apart, largest, compared] = [0, 0, 0];
+  for (const record of run.samples) {
+    action.reset();
+    mixer.setTime(record.time_s / clip.userData.run_seconds_per_second);
+    scene.updateMatrixWorld(true);
+    for (const wheel of record.wheels) {
+      const arrow = scene.getObjectByName(`force_${wheel.wheel}`);
+      const [tail, tip] = [0, 1].map((z) => arrow.localToWorld(new THREE.Vector3(0, 0, z)));
+      const force = tip.sub(tail).multiplyScalar(clip.userData.newtons_per_metre);
+      const angle = Math.PI / 180;
+      const expected = new THREE.Vector3(wheel.drawbar_pull_n, wheel.side_force_n, wheel.normal_force_n)
+        .applyAxisAngle(new THREE.Vector3(0, 0, 1), angle * (record.yaw_deg + (wheel.steering_deg ?? 0)))
+        .applyAxisAngle(new THREE.Vector3(1, 0, 0), angle * (slope - 90));
+      apart = Math.max(apart, force.distanceTo(expected));
+      largest = Math.max(largest, expected.length());
+      compared += 1;
+    }
+  }
+  return [apart / largest, compared];
+}"""
+
+
 #: Tables that are cut off where nothing scrolls, and names of columns that stand as labels.
 UNREADABLE = r"""() => [...document.querySelectorAll('#answer table')].flatMap((table) => {
   const around = table.closest('.wide, .card, figure');
@@ -341,6 +375,17 @@ def use_scene(looks, browser, server):
     blank = [] if len(pixels(page)) > 8000 else ["the picture is blank"]
     lazy = ["three is loaded before it is asked for"] if early or not page.evaluate(loaded) else []
     looks.claim("a drive ends in three dimensions where its table says", blank + lazy + scene_differs(page))
+    asked = {"soil": "toyoura", "slope_deg": 12, "yaw_deg": 20, "duration_s": 5, "scene": True}
+    apart, compared = page.evaluate(ARROWS, [asked, 12])
+    far = [] if apart < 1e-4 and compared == 4 * 51 else [f"{compared} of them are up to {apart} of the largest force apart"]
+    looks.claim("arrows are the forces of the records to another reader of the scene", far)
+    shown, scale = pixels(page), page.locator("#force-scale").inner_text()
+    page.locator("#forces").press("Space")
+    bare, without = pixels(page), page.locator("#force-scale").inner_text()
+    page.locator("#forces").press("Space")
+    back = [] if pixels(page) == shown != bare else ["the picture does not say so"]
+    words = [] if re.search(r"1 m of arrow = [\d.]+ N", scale) and not without else [f"it says {scale}, then {without}"]
+    looks.claim("a box shows and hides the forces, and their scale", back + words)
     end = place_in_scene(page)
     page.locator("#time").focus()
     page.keyboard.press("Home")
@@ -445,6 +490,23 @@ def use_hand(looks, browser, server):
     moved = [] if 0.005 < ahead[0] - start[0] < 0.3 else [f"it is at {ahead}"]
     there = [] if apart < 1e-3 else [f"in three dimensions it is {apart} m from there"]
     looks.claim("a held key drives, in three dimensions too", moved + there)
+    scale = page.locator("#force-scale").inner_text()
+    looks.claim("a drive by hand has its forces", [] if " N" in scale else [f"it says {scale}"])
+    page.locator("#pace").select_option("4")
+    page.evaluate("document.activeElement.blur()")
+    held(page, "ArrowUp", 2500)
+    page.locator("#pace").select_option("1")
+    with page.expect_download(timeout=20000) as saved:
+        page.locator("#save-drive").press("Enter")
+    log = Path(server.place.name, "drive-by-hand.csv")
+    saved.value.save_as(log)
+    replayed = server.run(page.locator("#drive-command code").inner_text().replace("drive.csv", log.name))
+    agrees = [] if "point to nothing" in " ".join(replayed["points_to"]) else replayed["points_to"]
+    rows = [] if len(log.read_text(encoding="utf-8").splitlines()) > 10 else ["it has no rows"]
+    looks.claim("a drive by hand is saved as a log, which the program replays", agrees + rows)
+    log.unlink()
+    page.evaluate("document.activeElement.blur()")
+    ahead = place_by_hand(page)
     held(page, "ArrowLeft", 1500)
     turned = place_by_hand(page)
     looks.claim("a key turns the rover to the left", [] if turned[2] > ahead[2] + 0.3 else [f"it is at {turned}, it was at {ahead}"])
@@ -619,8 +681,17 @@ def use_design(looks, browser, server):
     settled(page)
     is_over = page.locator("#progress").is_hidden() and page.locator("#start").is_enabled()
     looks.claim("a search is stopped by the keyboard", [] if is_over else ["it goes on"])
+    end = page.locator("#bounds").get_by_role("spinbutton", name=re.compile("radius.*at most", re.IGNORECASE))
+    usual = end.input_value()
+    end.fill("0.01")
+    wrong = page.locator("#bounds .error:not(:empty)")
+    wrong.wait_for()
+    flaws_of_end = [] if end.get_attribute("aria-invalid") and "below the second" in wrong.inner_text() else [wrong.inner_text()]
+    end.fill(usual)
+    page.wait_for_function("!document.querySelector('#bounds .error:not(:empty)')")
+    looks.claim("an end of what is free is refused beside its field", flaws_of_end)
     looks.claim("the keyboard reaches everything about a design", unreached(page))
-    looks.claim("nothing goes wrong about a design", flaws)
+    looks.claim("nothing goes wrong about a design", [it for it in flaws if "422" not in it])
     page.context.close()
 
 
@@ -658,6 +729,52 @@ def use_campaigns(looks, browser, server):
     page.context.close()
 
 
+def use_fits(looks, page, server):
+    """Fits beside each other: the one that is shown, and one with all trials and another number."""
+    first = page.locator("#command").inner_text()
+    page.locator("#all-trials").press("Enter")
+    page.get_by_role("checkbox", name=re.compile("angle of internal friction", re.IGNORECASE)).check()
+    page.locator("#start").press("Enter")
+    settled(page)
+    second = page.locator("#command").inner_text()
+    rows = [{row["key"]: row for row in server.run(command)["rows"]} for command in (first, second)]
+    beside = page.locator("#fits table").nth(1).locator("tbody tr")
+    cells = {line.locator("td").first.inner_text(): line.locator("td").all_inner_texts()[1:] for line in beside.all()}
+    shear = next(cells[name] for name in cells if "shear longitudinal" in name)
+    friction = next(cells[name] for name in cells if "friction angle" in name)
+    flaws = [] if "as it was" in friction[0] else [f"friction was not fitted at first, and is {friction[0]}"]
+    for cell, row in zip(shear, [one["soil.shear.longitudinal_m"] for one in rows], strict=True):
+        if not cell.startswith(four(row["fit"])):
+            flaws.append(f"it is {cell}, the program has {row['fit']}")
+    errors = [name for name in cells if "RMSE" in name]
+    looks.claim("two fits stand beside each other", flaws + ([] if errors else ["errors are missing"]))
+    page.locator("#show-1").press("Enter")
+    shown = page.locator("#command").inner_text()
+    current = page.locator("#fits tr[aria-current]").inner_text()
+    looks.claim("an earlier fit is shown again", [] if shown == first and current.startswith("1 (shown)") else [shown, current])
+    page.locator("#take-up-1").press("Enter")
+    settled(page)
+    said = page.locator("#trial-count").inner_text()
+    again = page.locator("#command").inner_text()
+    taken = "without 2 of" in said and "without=" in page.url and again == first
+    looks.claim("a fit that is taken up brings its settings back", [] if taken else [said, page.url, again])
+
+
+def use_corner(looks, browser, server):
+    """The posterior of two numbers in a picture, and in words."""
+    page, flaws = opened(browser, server, "view=fit&soil=toyoura&data=tests.csv&fit=soil.shear.longitudinal_m,soil.friction_angle_deg")
+    page.locator("#start").press("Enter")
+    page.locator("#found").wait_for(timeout=120000)
+    settled(page)
+    table = page.locator("table", has_text="Correlation of what is fitted")
+    between = table.locator("tbody tr").first.locator("td").nth(2).inner_text()
+    said = page.locator("#answer .figures .across img").get_attribute("alt")
+    right = "95 % interval" in said and f"{float(between):.2f}" in said
+    looks.claim("a posterior is drawn, and its correlation said", [] if right else [between, said])
+    looks.claim("nothing goes wrong about a posterior", flaws)
+    page.context.close()
+
+
 def use_fit(looks, browser, server):
     page, flaws = opened(browser, server, "view=fit&soil=toyoura&data=tests.csv&set.soil.shear.longitudinal_m=0.1")
     page.locator("#start").press("Enter")
@@ -684,6 +801,7 @@ def use_fit(looks, browser, server):
     row = server.run(command)["rows"][0]
     shown = page.locator(".wide [data-column='fit']").first.inner_text()
     looks.claim("a fit is the program's", [] if shown == four(row["fit"]) else [f"it is {shown}, the program has {row['fit']}"])
+    use_fits(looks, page, server)
     looks.claim("the keyboard reaches everything about a fit", unreached(page))
     lacking = page.locator("#data option[value='hakuto-slope']")
     said = lacking.inner_text() if lacking.is_disabled() else "it is offered"
@@ -696,6 +814,53 @@ def use_fit(looks, browser, server):
     page.context.close()
 
 
+def use_part_of_log(looks, page, server):
+    """A time of a log that is replayed, and a part of it."""
+    rows = server.run(page.locator("#command").inner_text())["stretches"]
+    chart = page.locator("#answer .figures .picked").first
+    box = chart.bounding_box()
+    chart.click(position={"x": 0.5 * box["width"], "y": 0.5 * box["height"]})
+    shown = page.locator("#at-time caption").inner_text()
+    row = next((it for it in rows if f" {four(it['time_s'])} s" in shown), None)
+    middle = [] if row and 0.3 < row["time_s"] / rows[-1]["time_s"] < 0.7 else [f"it is at {shown}"]
+    cells = {it.get_attribute("data-column"): it.inner_text() for it in page.locator("#at-time td[data-column]").all()}
+    other = [f"{name} is {text}, the program has {row[name]}" for name, text in cells.items() if row and text != ("–" if row[name] is None else four(row[name]))]
+    looks.claim("a click on a chart leads to its time, and to its values", middle + other + ([] if len(cells) > 20 else [f"{len(cells)} cells"]))
+    page.locator("#stretch").press("Home")
+    first = page.locator("#stretch-clock").inner_text()
+    looks.claim("the keyboard goes over a log, too", [] if first == f"{four(rows[0]['time_s'])} s" else [first])
+    chart.scroll_into_view_if_needed()
+    box = chart.bounding_box()
+    page.mouse.move(box["x"] + 0.4 * box["width"], box["y"] + 60)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 60, steps=4)
+    page.mouse.up()
+    drawn = part_differs(page, server)
+    page.locator("#part-of").select_option(index=3)
+    looks.claim("a part that is drawn or chosen is explained as by the program", drawn + part_differs(page, server))
+    page.locator("#from").fill("3")
+    page.locator("#to").fill("3.01")
+    page.locator("#explain").press("Enter")
+    page.locator("#part-error").wait_for(timeout=30000)
+    said = page.locator("#part-error").inner_text()
+    looks.claim("of a part that is too short nothing is told", [] if "nothing can be told from 1 record" in said else [said])
+
+
+def part_differs(page, server):
+    """Where what is said of a part of a log is not what its command says."""
+    page.locator("#why-part:not(.stale) #part-command").wait_for(timeout=30000)
+    command = page.locator("#part-command").inner_text()
+    found = server.run(command)
+    ends = [found["inputs"][key] for key in ("from_s", "to_s")]
+    fields = [float(page.locator(f"#{name}").input_value()) for name in ("from", "to")]
+    flaws = [] if ends == fields and ends[0] < ends[1] else [f"{command} has the ends {ends}, the fields {fields}"]
+    flaws += [] if page.locator("#part-found").inner_text() == "; ".join(found["points_to"]) else ["it says something else"]
+    causes = [(it.get_attribute("data-cause"), it.locator("strong").inner_text()) for it in page.locator("#causes li").all()]
+    share = {it["cause"]: it["share_alone"] for it in found["findings"]}
+    expected = [(cause, f"{math.floor(100 * share[cause] + 0.5)} %") for cause in found["best_causes"]]
+    return flaws + ([] if causes == expected else [f"causes are {causes}, not {expected}"])
+
+
 def use_log(looks, browser, server):
     page, flaws = opened(browser, server, "view=log&soil=toyoura&log=drive.csv")
     page.locator("#start").press("Enter")
@@ -704,11 +869,16 @@ def use_log(looks, browser, server):
     points = [f"finding: {it}" for it in server.run(command)["points_to"]]
     found = page.locator("#found").inner_text()
     looks.claim("a log points to what the program says", [] if found == points[0] else [f"{found}, the program has {points}"])
+    use_part_of_log(looks, page, server)
     page.get_by_role("spinbutton", name=re.compile("Angle of internal friction")).fill("30")
     page.locator("#start").press("Enter")
     settled(page)
     found = page.locator("#found").inner_text()
     looks.claim("another soil is found out by a log", [] if "soil" in found else [f"it is {found}"])
+    page.locator("#part-of").select_option(index=4)
+    other = part_differs(page, server)
+    best = page.locator("#causes li").first.get_attribute("data-cause") if page.locator("#causes li").count() else None
+    looks.claim("and by a part of it", other + ([] if best else ["it has no cause"]))
     looks.claim("the keyboard reaches everything about a log", unreached(page))
     page.locator("#log").select_option("tests.csv")
     page.locator("#start").press("Enter")
@@ -797,6 +967,15 @@ def use(looks, browser, server):
     settled(page)
     looks.claim("a number of the soil moves the answer", numbers_differ(page, server))
     looks.claim("a button saves the card of the program", card_differs(page, server))
+    # As a server answers that draws no cards.
+    page.route("**/api/questions", lambda route: route.fulfill(json={"rows": [{"name": "heading"}]}))
+    page.reload()
+    settled(page)
+    is_said = page.locator("#card-pdf").count() == 0 and "run the command" in page.locator("#no-card").inner_text()
+    looks.claim("where no cards are drawn there is no button for them", [] if is_said else ["it is there"])
+    page.unroute("**/api/questions")
+    page.reload()
+    settled(page)
     link = page.url.split("#")[1]
     friction.fill("99")
     page.wait_for_timeout(1000)
@@ -849,6 +1028,7 @@ def use(looks, browser, server):
     use_design(looks, browser, server)
     use_campaigns(looks, browser, server)
     use_fit(looks, browser, server)
+    use_corner(looks, browser, server)
     use_log(looks, browser, server)
     use_locked(looks, browser, server)
     use_map(looks, browser, server)

@@ -49,6 +49,9 @@ function round(low, high, most) {
 /** How many patterns of lines there are. */
 export const PATTERNS = 6;
 
+/** What the mouse moves less while it is down is a click [pixels]. */
+const DRAWN = 6;
+
 /** Width and height of a chart, and where its curves are. */
 export const SIZE = /** @type {const} */ ([420, 250]);
 const BOX = { left: 52, right: SIZE[0] - 18, top: 26, bottom: SIZE[1] - 38 };
@@ -96,8 +99,9 @@ export function draw(chart) {
  * The same, and what sets its cursor to a place.
  * @param {Chart} chart
  * @param {(at: number) => void} [picked] takes the place of a click; a slider does the same by the keyboard
+ * @param {(from: number, to: number) => void} [ranged] takes what the mouse is drawn over; fields do the same
  */
-export function drawOver(chart, picked) {
+export function drawOver(chart, picked, ranged) {
   const [width, height] = SIZE;
   const { curves, band = [], point } = chart;
   const all = [
@@ -113,7 +117,7 @@ export function drawOver(chart, picked) {
   if (all.length === 0) {
     drawn.append(svg("text", { class: "title", x: BOX.left, y: 15 }, chart.title));
     drawn.append(svg("text", { x: BOX.left, y: height / 2 }, "There is nothing to draw."));
-    return { drawn, cursor: () => {} };
+    return { drawn, cursor: () => {}, mark: () => {} };
   }
   const { frame, x, y, ends: [left, right], box } = scaleOf({ title: chart.title, x: chart.x, points: all });
   drawn.append(...frame);
@@ -128,12 +132,29 @@ export function drawOver(chart, picked) {
     drawn.append(svg("polyline", { class: name, points: path }));
   }
   if (point) drawn.append(svg("circle", { class: "point", cx: x(point[0]), cy: y(point[1]), r: 5.5 }));
+  const range = svg("rect", { class: "range", y: box.top, height: box.bottom - box.top, width: 0 });
+  drawn.append(range);
+  const mark = (/** @type {number} */ from, /** @type {number} */ to) => {
+    const [start, end] = [from, to].map((it) => x(Math.min(right, Math.max(left, it))));
+    range.setAttribute("x", String(start));
+    range.setAttribute("width", String(Math.max(0, (end ?? 0) - (start ?? 0))));
+  };
   if (picked) {
     drawn.classList.add("picked");
-    drawn.addEventListener("click", (event) => {
+    /** Where the mouse went down. */
+    let down = 0;
+    const at = (/** @type {number} */ place) => {
       const frame = drawn.getBoundingClientRect();
-      const share = ((/** @type {MouseEvent} */ (event).clientX - frame.left) / frame.width * width - box.left) / (box.right - box.left);
-      picked(left + Math.min(1, Math.max(0, share)) * (right - left));
+      const share = ((place - frame.left) / frame.width * width - box.left) / (box.right - box.left);
+      return left + Math.min(1, Math.max(0, share)) * (right - left);
+    };
+    drawn.addEventListener("pointerdown", (event) => {
+      down = /** @type {PointerEvent} */ (event).clientX;
+    });
+    drawn.addEventListener("click", (event) => {
+      const { clientX: up } = /** @type {MouseEvent} */ (event);
+      if (ranged && Math.abs(up - down) > DRAWN) ranged(at(Math.min(down, up)), at(Math.max(down, up)));
+      else picked(at(up));
     });
   }
   const line = svg("line", { class: "cursor", y1: box.top, y2: box.bottom, visibility: "hidden" });
@@ -143,7 +164,7 @@ export function drawOver(chart, picked) {
     for (const end of ["x1", "x2"]) line.setAttribute(end, String(x(at)));
     line.setAttribute("visibility", "visible");
   };
-  return { drawn, cursor };
+  return { drawn, cursor, mark };
 }
 
 /** @param {number} value */
