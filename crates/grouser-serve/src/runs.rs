@@ -1,12 +1,15 @@
 //! Computations: few at a time, each with an end, and stopped where nobody waits for its answer.
 
 use std::any::Any;
+use std::pin::pin;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use http::StatusCode;
+use tokio::runtime::Handle;
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio::time::timeout;
 
 use crate::asked::GoOn;
 use crate::limits::Limits;
@@ -46,8 +49,10 @@ pub(crate) struct Awaited {
 
 /// Time of a study, whose progress somebody watches.
 const STUDY: Duration = Duration::from_secs(12 * 3600);
-/// How often it is looked whether it is somebody's turn.
+/// How often it is looked whether readers have taken so much that there is room.
 const LOOK: Duration = Duration::from_millis(2);
+/// How soon who has gone leaves the line.
+const LEAVE: Duration = Duration::from_millis(20);
 /// Questions that are read at a time: a map may take some dozen megabytes until it is read.
 const READING: usize = 4;
 /// Bytes of a permit for lines.
@@ -89,9 +94,11 @@ impl RunPlaces {
         (Waiter(has_gone), go_on)
     }
 
-    /// Stops all computations.
+    /// Stops all computations, and sends home who waits for a place.
     pub(crate) fn end(&self) {
         self.has_ended.store(true, Ordering::Relaxed);
+        self.computing.close();
+        self.reading.close();
     }
 }
 
@@ -114,30 +121,84 @@ impl GoOn for Awaited {
     }
 
     fn turn(&self) -> Option<Box<dyn Any>> {
-        self.permits(&self.computing, 1).map(|permit| Box::new(permit) as Box<dyn Any>)
+        self.in_order(&self.computing).map(|permit| Box::new(permit) as Box<dyn Any>)
     }
 }
 
 impl Awaited {
     /// Waits for the turn of reading a question.
     pub(crate) fn reading_turn(&self) -> Option<OwnedSemaphorePermit> {
-        self.permits(&self.reading, 1)
+        self.in_order(&self.reading)
     }
 
     /// Waits until readers have taken so much that there is room for a line.
     pub(crate) fn room(&self, bytes: usize) -> Option<OwnedSemaphorePermit> {
         let count = u32::try_from(bytes.div_ceil(KIB)).ok()?;
-        let at_once = Arc::clone(&self.lines).try_acquire_many_owned(count);
-        at_once.ok().or_else(|| self.permits(&self.lines, count))
-    }
-
-    fn permits(&self, of: &Arc<Semaphore>, count: u32) -> Option<OwnedSemaphorePermit> {
         while self.is_on() {
-            if let Ok(permits) = Arc::clone(of).try_acquire_many_owned(count) {
+            if let Ok(permits) = Arc::clone(&self.lines).try_acquire_many_owned(count) {
                 return Some(permits);
             }
             std::thread::sleep(LOOK);
         }
         None
+    }
+
+    /// A place, behind those who have waited longer: in any other order some would wait very long,
+    /// and places would go to those who are about to leave.
+    fn in_order(&self, of: &Arc<Semaphore>) -> Option<OwnedSemaphorePermit> {
+        Handle::current().block_on(async {
+            let mut place = pin!(Arc::clone(of).acquire_owned());
+            while self.is_on() {
+                if let Ok(place) = timeout(LEAVE, place.as_mut()).await {
+                    return place.ok();
+                }
+            }
+            None
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::{Mutex, mpsc};
+
+    use tokio::runtime::Builder;
+    use tokio::task::spawn_blocking;
+    use tokio::time::sleep;
+
+    use super::*;
+
+    #[test]
+    fn turns_come_in_the_order_of_the_line_and_who_goes_leaves_it() {
+        let places = RunPlaces::new(&Limits { runs: 1, ..Limits::default() });
+        let (end_first, first_ends) = mpsc::channel();
+        let mut first_ends = Some(first_ends);
+        let order = Arc::new(Mutex::new(Vec::new()));
+        let mut waiters = Vec::new();
+        let run = async {
+            let mut all = Vec::new();
+            for number in 0..5 {
+                let (waiter, go_on) = places.asking();
+                waiters.push(waiter);
+                let (order, holds) = (Arc::clone(&order), first_ends.take());
+                all.push(spawn_blocking(move || {
+                    let Some(_turn) = go_on.turn() else { return };
+                    order.lock().unwrap().push(number);
+                    if let Some(end) = holds {
+                        end.recv().unwrap();
+                    }
+                }));
+                // Until it stands in line.
+                sleep(2 * LEAVE).await;
+            }
+            drop(waiters.remove(2));
+            all.remove(2).await.unwrap();
+            end_first.send(()).unwrap();
+            for one in all {
+                one.await.unwrap();
+            }
+        };
+        Builder::new_current_thread().enable_time().build().unwrap().block_on(run);
+        assert_eq!(*order.lock().unwrap(), [0, 1, 3, 4]);
     }
 }

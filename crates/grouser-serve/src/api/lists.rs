@@ -32,6 +32,10 @@ pub(super) fn documents(console: &Console) -> String {
 }
 
 /// The questions that are answered here: that of the card where something draws it.
+#[cfg_attr(
+    not(feature = "server"),
+    expect(unused_variables, reason = "without a server nothing draws cards")
+)]
 pub(super) fn questions(console: &Console) -> String {
     let names = super::QUESTIONS.iter().map(|(name, _)| *name);
     #[cfg(feature = "server")]
