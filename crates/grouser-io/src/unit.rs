@@ -223,20 +223,18 @@ pub const QUANTILES: [&str; 3] = ["_p2_5", "_p50", "_p97_5"];
 /// The name of a column, or a key, in words, with its unit.
 ///
 /// ```
-/// let labels = ["time_s", "yaw_deg_p97_5", "probability_completed"].map(grouser_io::label_of);
-/// assert_eq!(labels, ["time [s]", "yaw, 97.5 % [°]", "probability completed"]);
+/// let labels = ["time_s", "yaw_deg_p97_5", "p2_5"].map(grouser_io::label_of);
+/// assert_eq!(labels, ["time [s]", "yaw, 97.5 % [°]", "2.5 %"]);
 /// let keys = ["shear.longitudinal_m", "pressure_sinkage.n"].map(grouser_io::label_of);
 /// assert_eq!(keys, ["shear longitudinal [m]", "pressure sinkage n"]);
 /// ```
 #[must_use]
 pub fn label_of(name: &str) -> String {
-    let quantile = QUANTILES.iter().zip(["2.5 %", "50 %", "97.5 %"]);
-    let found = quantile.into_iter().find_map(|(end, words)| {
-        if name == end.trim_start_matches('_') {
-            return Some((words, ""));
-        }
-        Some((name.strip_suffix(end)?, words))
-    });
+    let quantiles = || QUANTILES.into_iter().zip(["2.5 %", "50 %", "97.5 %"]);
+    if let Some((_, words)) = quantiles().find(|(end, _)| name == end.trim_start_matches('_')) {
+        return words.to_owned();
+    }
+    let found = quantiles().find_map(|(end, words)| Some((name.strip_suffix(end)?, words)));
     let (name, words) = found.unwrap_or((name, ""));
     let unit = UNITS.iter().find_map(|(end, unit)| Some((name.strip_suffix(end)?, unit.symbol)));
     let (stem, symbol) = unit.unwrap_or((name, ""));

@@ -64,7 +64,7 @@ export class Fits {
   draw() {
     if (!this.all.length) return;
     const focused = document.activeElement?.id;
-    const heads = ["Fit", "Data", "Start", "Fitted", "Left out", "Found", ""];
+    const heads = ["Fit", "", "Data", "Start", "Fitted", "Left out", "Found"];
     const beside = this.all.length === 1 ? [] : [tableOf(besides(this.all))];
     this.element.hidden = false;
     this.title.textContent = `Fits of this page (${this.all.length})`;
@@ -92,8 +92,8 @@ export class Fits {
       element("button", { type: "button", id: `${id}-${number}`, "aria-label": `${text} fit ${number}`, onclick: act }, [text]);
     return element("tr", isShown ? { "aria-current": "true" } : {}, [
       element("th", { scope: "row", class: "text" }, [`${number}${isShown ? " (shown)" : ""}`]),
-      ...cells.map((text) => element("td", { class: "text" }, [text])),
       element("td", {}, [button("show", "Show", () => this.show(made)), " ", button("take-up", "Take up", () => this.takenUp(made))]),
+      ...cells.map((text) => element("td", { class: "text" }, [text])),
     ]);
   }
 }
