@@ -32,7 +32,12 @@ SEEN = {
     "log": "view=log&soil=toyoura&belief=nominal&log=drive.csv",
 }
 #: What the first look at a view has besides, which takes long, and without which there is no picture.
-PICTURED = {"design": "&trade=energy_j_per_m,wheel_mass_kg"}
+PICTURED = {
+    "design": "&trade=energy_j_per_m,wheel_mass_kg",
+    "fit": "&belief=samples&fit=soil.shear.longitudinal_m,soil.friction_angle_deg",
+}
+#: From where on a picture shows the page, where that is not its top.
+TOPS = {"fit": "#fits"}
 SIZES = [(1280, 720), (820, 1180)]
 THEMES = ("light", "dark")
 IMPACTS = ("serious", "critical")
@@ -941,6 +946,7 @@ def look_at_views(looks, browser, server, axe, pictures):
                 if is_first and view != "hand":
                     looks.claim(f"a key saves a slide of {view}", slide_differs(page))
                 if pictures and is_first:
+                    page.evaluate("(top) => top && document.querySelector(top).scrollIntoView()", TOPS.get(view))
                     page.screenshot(path=str(Path(pictures, f"{view}.png")))
                 page.context.close()
                 page, _ = started(browser, server, SEEN.get(view, f"view={view}"), size, theme, bypass=True)
