@@ -88,7 +88,9 @@ fn swept<'py, V: RunBase>(
     for (places, found) in alike.into_iter().zip(found) {
         let why = match found {
             Ok(tables) => {
-                places.into_iter().zip(tables).for_each(|(place, own)| entries[place] = Ok(own));
+                for (place, own) in places.into_iter().zip(tables) {
+                    entries[place] = Ok(own);
+                }
                 continue;
             }
             Err(NoTables::Unfit(problem)) if !outside_is_nan => {
@@ -97,7 +99,9 @@ fn swept<'py, V: RunBase>(
             Err(NoTables::Unfit(problem)) => problem.to_string(),
             Err(NoTables::Failed(why)) => why,
         };
-        places.into_iter().for_each(|place| entries[place] = Err(why.clone()));
+        for place in places {
+            entries[place] = Err(why.clone());
+        }
     }
     let why = |entry: &Result<StudyTables, String>| entry.as_ref().err().cloned();
     let why: Vec<Option<String>> = entries.iter().map(why).collect();
