@@ -43,8 +43,11 @@ impl<E: Into<Problem>> From<E> for NoTables {
     }
 }
 
-/// Both tables, those of all entries one below the other: what an entry does not have is missing, and
-/// its `status` says why.
+/// The tables of some entries.
+type Found = Result<Vec<StudyTables>, NoTables>;
+
+/// Both tables, those of all entries one below the other: what an entry does not have is missing,
+/// and its `status` says why.
 type Swept<'py> = Vec<Bound<'py, PyDict>>;
 
 /// A study of many entries, on all cores; in their order, whatever the threads did.
@@ -57,7 +60,7 @@ fn swept<'py, V: RunBase>(
     asked: &AskedRuns<'py>,
     rows: [usize; 2],
     but_for: &str,
-    study: impl Fn(&Runs<V>, &[usize]) -> Result<Vec<StudyTables>, NoTables> + Send + Sync + 'static,
+    study: impl Fn(&Runs<V>, &[usize]) -> Found + Send + Sync + 'static,
 ) -> PyResult<Swept<'py>> {
     let runs = Runs::<V>::new(asked)?;
     let (count, outside_is_nan) = (runs.count, runs.outside_is_nan);
@@ -138,7 +141,7 @@ fn over_slopes<T>(
     slopes: &[f64],
     study: impl FnOnce(Scenario) -> Result<T, NoTables>,
     tables: impl Fn(&T, &[f64]) -> Result<StudyTables, NoTables>,
-) -> Result<Vec<StudyTables>, NoTables> {
+) -> Found {
     let found = study(runs.value(places[0]).map_err(NoTables::Unfit)?)?;
     places.iter().map(|place| tables(&found, &slopes_of(runs, *place, slopes))).collect()
 }
@@ -153,8 +156,8 @@ fn on_planes(py: Python<'_>, asked: &AskedRuns<'_>) -> PyResult<()> {
     asked.0.iter().try_for_each(|scenario| scenario.scenario_on_planes(py).map(drop))
 }
 
-/// Headings: a row for each slope, and the steepest slope. Entries that differ in their slopes alone
-/// share a curve.
+/// Headings: a row for each slope, and the steepest slope. Entries that differ in their slopes
+/// alone share a curve.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value, reason = "how arrays come from Python")]
 pub(crate) fn heading_sweep<'py>(

@@ -264,7 +264,7 @@ def test_what_is_out_of_range_is_an_error_or_left_out(name: str) -> None:
     assert status[0] == "ok" and found.shape[0] == 3
     assert "range" in status[1] or "120" in status[1]
     assert "NaN" in status[2]
-    column = found.columns["energy_j" if name == "mission" else "sinkage_mm" if name == "wheel_test" else "yaw_deg"]
+    column = found[{"mission": "energy_j", "wheel_test": "sinkage_mm"}.get(name, "yaw_deg")]
     assert np.isfinite(column.reshape(3, -1)[:, 0]).tolist() == [True, False, False]
     nothing = call(vary={"soil.friction_angle_deg": [120.0]}, outside="nan", **keys)
     assert nothing.status.ravel()[0] != "ok" and len(nothing.to_pandas()) == len(nothing)
