@@ -557,6 +557,11 @@ def use_hand(looks, browser, server):
     page.keyboard.up("ArrowUp")
     over = [] if said in ("immobilised", "sliding") and len(steps) == count else [f"it is {said}"]
     looks.claim("a drive by hand ends as the engine says, and why", over + ([] if "start anew" in page.locator("#why-ended").inner_text() else ["no reason"]))
+    page.locator("#simulation").select_option("quasi-steady")
+    page.locator("#outcome", has_text="ready").wait_for(timeout=30000)
+    said = page.locator("#why-ended").inner_text()
+    looks.claim("another simulation begins a drive by hand anew", [] if "quasi steady" in said else [said])
+    page.locator("#simulation").select_option("")
     page.locator("#anew").press("Enter")
     page.locator("#outcome", has_text="ready").wait_for(timeout=30000)
     page.locator("#ground").select_option("hills.tif")

@@ -137,22 +137,23 @@ fn an_arrow_is_the_force_of_its_record() {
     }
 }
 
-/// Where the motion is steady, the soil carries the weight, on planes and over heights, on stiff
-/// rovers and on rockers: the arrows together are as large as it, and point straight up.
+/// Where the motion is steady the soil carries the weight, under stiff rovers and on rockers: all
+/// arrows together are as large as it and point straight up, over heights to half a per cent. In the
+/// frames of the axles, which lean against the ground, they would be 1.6 % off for the first rover.
 #[test]
 fn arrows_together_carry_the_weight() {
     let ripples = "[terrain]\nsurface = \"ripple\"\namplitude_m = 0.03\nwavelength_m = 1.0";
-    for (rover, ground) in [
-        ("hakuto", "slope_deg = 10.0"),
-        ("hakuto", ripples),
-        ("hakuto-rockers", ripples),
-        ("curiosity-rocker-bogie", ripples),
+    for (rover, ground, within) in [
+        ("hakuto", "slope_deg = 10.0", 1e-3),
+        ("hakuto", ripples, 5e-3),
+        ("hakuto-rockers", ripples, 5e-3),
+        ("spirit", ripples, 5e-3),
     ] {
         let text = format!("simulation = \"quasi-steady\"\nduration_s = 3\n{ground}");
-        let driven = run(&text, &[&format!("scenario.rover={rover}"), "scenario.start.yaw_deg=30", "scenario.drive.rim_speed_m_s=0.01"]);
+        let set = [&*format!("scenario.rover={rover}"), "scenario.start.yaw_deg=30"];
+        let driven = run(&text, &set);
         let (scenario, trajectory) = &driven;
-        let scenario = &scenario.value;
-        let weight = scenario.rover.mass() * scenario.gravity;
+        let weight = scenario.value.rover.mass() * scenario.value.gravity;
         let file = glb(&[&driven]);
         let scene = Scene::of(&file);
         let end = trajectory.last().time;
@@ -160,8 +161,7 @@ fn arrows_together_carry_the_weight() {
         let sum = all.fold(Vec3::zeros(), |sum, force| sum + force);
         // The scene's y axis points up.
         let apart = (sum - weight * Vec3::y()).norm();
-        assert!(apart < 5e-3 * weight, "{rover} over {ground}: {sum} of {weight} N");
-        println!("{rover}: {}", apart / weight);
+        assert!(apart < within * weight, "{rover} over {ground}: {sum} of {weight} N");
     }
 }
 

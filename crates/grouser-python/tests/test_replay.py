@@ -36,6 +36,17 @@ def test_it_is_what_the_program_has(drive: Path, program: Program) -> None:
     assert [row["cause"] for row in found.attrs["findings"]][:3] == ["soil"] * 3
 
 
+def test_a_part_is_replayed_alone(drive: Path, program: Program) -> None:
+    answer = program("replay", str(drive), "--model", "ishigami", "--from-s", "10", "--to-s", "30")
+    found = gr.replay(drive, from_s=10.0, to_s=30.0, model="ishigami")
+    assert found.attrs["points_to"] == answer["points_to"]
+    assert [float(time) for time in found.time_s] == [it["time_s"] for it in answer["stretches"]]
+    assert 10.0 < float(found.time_s[0]) and float(found.time_s[-1]) <= 30.0
+    for ends, says in (({"from_s": 5.0, "to_s": 5.0}, "not after 5 s"), ({"to_s": 0.01}, "from 1 record")):
+        with pytest.raises(gr.ParameterError, match=says):
+            gr.replay(drive, model="ishigami", **ends)
+
+
 def test_columns_are_as_good_as_a_file(drive: Path) -> None:
     pandas = pytest.importorskip("pandas")
     with drive.open(newline="") as file:

@@ -88,6 +88,8 @@ export class HandDrive extends DriveAnswer {
     /** @type {AbortController} */
     this.steps = new AbortController();
     this.pace = PACES[0] ?? 1;
+    /** The kind of simulation; empty for that of the scenario. */
+    this.simulation = "";
     this.scene.leaveArrows();
     this.numbers = element("table", { id: "live" });
     this.rate = element("output", { id: "rate" });
@@ -107,6 +109,11 @@ export class HandDrive extends DriveAnswer {
     const pace = element("select", { id: "pace", onchange: (/** @type {any} */ event) => {
       this.pace = Number(event.target.value);
     } }, PACES.map((it) => element("option", { value: it }, [it === 1 ? "as in time" : `${it} times as fast`])));
+    const kinds = [["", "as the scenario says"], ["dynamic", "dynamic"], ["quasi-steady", "quasi-steady"]];
+    const simulation = element("select", { id: "simulation", onchange: (/** @type {any} */ event) => {
+      this.simulation = event.target.value;
+      if (this.session) this.ask(this.session);
+    } }, kinds.map(([value = "", text = ""]) => element("option", { value }, [text])));
     return element("div", { class: "pad", role: "group", "aria-label": "Drive by hand" }, [
       element("div", { class: "keys" }, Object.entries(KEYS).map(([key, [sign, label]]) => this.makeButton(key, sign, label))),
       element("div", {}, [
@@ -115,6 +122,7 @@ export class HandDrive extends DriveAnswer {
         ]),
         element("div", { class: "choice" }, [
           element("label", {}, ["Pace ", pace]),
+          element("label", {}, ["Simulation ", simulation]),
           element("button", { type: "button", id: "anew", onclick: () => this.begin() }, ["Start anew"]),
           element("button", { type: "button", id: "save-drive", onclick: () => this.saveDrive() }, ["Save the drive"]), this.rate,
         ]),
@@ -190,7 +198,7 @@ export class HandDrive extends DriveAnswer {
     const about = aboutRover(session);
     return {
       ...about, ...(isPlane ? { slope_deg: session.slope } : {}), yaw_deg: session.yaw,
-      set: { ...about.set, ...(isPlane ? {} : { "scenario.terrain.file": session.ground }) },
+      set: { ...about.set, ...(this.simulation ? { "scenario.simulation": this.simulation } : {}), ...(isPlane ? {} : { "scenario.terrain.file": session.ground }) },
     };
   }
 

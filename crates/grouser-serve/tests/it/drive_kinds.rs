@@ -143,9 +143,11 @@ fn every_kind_of_rover_and_ground_is_driven() {
             assert_eq!(last["state_of_charge"].as_f64(), charge, "{name}, {simulation}");
             assert_eq!(charge.is_some(), name.starts_with("motors"));
             assert_eq!(own["outcome"].as_str(), run.outcome().map(Outcome::name));
-            // Each kind is driven somewhere.
+            // Each kind is driven somewhere, but for bogies that tip over at a stroke of the sides.
             let yaw = last["yaw_deg"].as_f64().unwrap();
-            assert!(place.norm() > 2e-3 && yaw.abs() > 0.2, "{name}, {simulation}: {last}");
+            let has_turned = place.norm() > 2e-3 && yaw.abs() > 0.2;
+            let tips = name == "bogies.toml" && own["outcome"] == "tipped_over";
+            assert!(has_turned || tips, "{name}, {simulation}: {last}");
         }
     }
 }
