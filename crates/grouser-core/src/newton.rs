@@ -12,6 +12,8 @@ where
     pub at: OVector<f64, D>,
     /// What the functions come from there.
     pub value: T,
+    /// The step that is left, as the inverse says, too short to look where it leads.
+    pub left: OVector<f64, D>,
     /// The inverse Jacobian, as far as it was needed.
     pub inverse: OMatrix<f64, D, D>,
 }
@@ -38,12 +40,15 @@ where
     DefaultAllocator: Allocator<D> + Allocator<D, D> + Allocator<U1, D>,
 {
     let start = f(guess)?;
-    zero_from(f, (guess.clone(), start), inverse, size, longest, is_zero)
+    zero_from(|at, _| f(at), (guess.clone(), start), inverse, size, longest, is_zero)
 }
 
 /// The zero nearest to a guess, as [`zero_near`] finds it, from values that are known there.
+///
+/// * `f`: gets the size of the step that leads there, too: before the zero is near, values need be
+///   no more exact than the next step is short
 pub fn zero_from<T, D: Dim>(
-    f: impl Fn(&OVector<f64, D>) -> Option<(OVector<f64, D>, T)>,
+    f: impl Fn(&OVector<f64, D>, f64) -> Option<(OVector<f64, D>, T)>,
     (mut at, (mut here, mut value)): (OVector<f64, D>, (OVector<f64, D>, T)),
     mut inverse: OMatrix<f64, D, D>,
     size: impl Fn(&OVector<f64, D>) -> f64,
@@ -56,20 +61,21 @@ where
     let mut step = -(&inverse * &here);
     for _ in 0..MOST_STEPS {
         if is_zero(&here, &step) {
-            return Some(Zero { at, value, inverse });
+            return Some(Zero { at, value, left: step, inverse });
         }
         let length = size(&step);
         if length.is_nan() || length > longest {
             return None;
         }
         at += &step;
-        let (there, value_there) = f(&at)?;
+        let (there, value_there) = f(&at, length)?;
         inverse = updated(&inverse, &step, &(&there - &here))?;
         (here, value) = (there, value_there);
         step = -(&inverse * &here);
         if size(&step) >= length {
             // As near as rounding lets it come, or going away.
-            return is_zero(&here, &step).then_some(Zero { at, value, inverse });
+            let is_found = is_zero(&here, &step);
+            return is_found.then_some(Zero { at, value, left: step, inverse });
         }
     }
     None

@@ -21,7 +21,7 @@ use crate::vehicle::statics::centre_of_mass;
 use crate::vehicle::{
     Acceleration, BellyPoint, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture,
     ReactionError, Rover, RoverState, Stance, Standing, Underside, WheelReaction, dynamics,
-    on_ground::OnGround, settling::Known, settling::Nearby,
+    on_ground::OnGround, settling::Accuracy, settling::Known, settling::Nearby,
 };
 
 /// The equations of motion of a rover whose motors are set to given speeds.
@@ -126,12 +126,12 @@ pub struct Rates {
 }
 
 /// Where the search for sinkages and loads begins: the answers agree but for their last digits.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 enum Search {
     /// From shallow sinkages: the same whatever was evaluated before.
     Anew,
     /// From the wheels of the last attempt.
-    Nearby,
+    Nearby(Accuracy),
     /// Beside the last attempt, which stays the last: to first order in how far.
     Beside,
 }
@@ -238,8 +238,9 @@ impl<'a> Equations<'a> {
         self.count(|work| work.settled_wheels += slips.len() as u64);
         match search {
             Search::Anew => self.on_ground.reactions(stance, &slips),
-            Search::Nearby => {
-                self.on_ground.reactions_after(stance, &slips, &mut self.nearby.borrow_mut())
+            Search::Nearby(accuracy) => {
+                let near = &mut self.nearby.borrow_mut();
+                self.on_ground.reactions_after(stance, &slips, near, accuracy)
             }
             Search::Beside => {
                 self.on_ground.reactions_beside(stance, &slips, &mut self.nearby.borrow_mut())
@@ -369,8 +370,9 @@ impl<'a> Equations<'a> {
         let (near, ground) = (&self.nearby_standing, &self.on_ground);
         let wheels = match search {
             Search::Anew => ground.reactions_standing(posture, up, &slips, &[]),
-            Search::Nearby => {
-                ground.reactions_standing_after(posture, up, &slips, &mut near.borrow_mut())
+            Search::Nearby(accuracy) => {
+                let near = &mut near.borrow_mut();
+                ground.reactions_standing_after(posture, up, &slips, near, accuracy)
             }
             Search::Beside => {
                 ground.reactions_standing_beside(posture, up, &slips, &mut near.borrow_mut())
@@ -532,7 +534,12 @@ impl<'a> Equations<'a> {
     /// that the answer differs in its last digits. A solver may try states that no rover can have,
     /// so the reason of a failure is kept for when it gives up.
     pub(super) fn attempt(&self, state: &RoverState) -> Option<Evaluation> {
-        self.attempt_by(Search::Nearby, state)
+        self.attempt_by(Search::Nearby(Accuracy::EXACT), state)
+    }
+
+    /// Does the same to an error relative to the forces [-], where a solver is still on its way.
+    pub(super) fn attempt_to(&self, error: f64, state: &RoverState) -> Option<Evaluation> {
+        self.attempt_by(Search::Nearby(Accuracy::to(error)), state)
     }
 
     /// Attempts a state beside the last attempt, for a difference: to first order in how far it is.
@@ -586,7 +593,8 @@ impl<'a> Equations<'a> {
         }
         self.count(|work| work.evaluations += 1);
         let wheel_speeds: Vec<f64> = self.on_ground.rover.wheel_speeds(rim_speeds).collect();
-        let evaluated = self.evaluate_with(state, rim_speeds, &wheel_speeds, Search::Nearby);
+        let search = Search::Nearby(Accuracy::EXACT);
+        let evaluated = self.evaluate_with(state, rim_speeds, &wheel_speeds, search);
         let evaluation = evaluated.map_err(|failure| self.keep(failure)).ok()?;
         *self.last.borrow_mut() = Some((*state, rim_speeds.to_vec(), evaluation.clone()));
         Some(evaluation)

@@ -6,7 +6,7 @@ use super::by_wheel::Differences;
 use super::load;
 use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction, forces_of};
 use super::ruts::Ruts;
-use super::settling::{Known, KnownWheels, Nearby};
+use super::settling::{Accuracy, Known, KnownWheels, Nearby};
 use crate::contact::{Contact, Slip, WheelForces, settle_from, settle_many};
 use crate::newton;
 use crate::soil::Soil;
@@ -54,7 +54,7 @@ impl<'a> OnGround<'a> {
         self.meet(stance, slips, &mut contacts);
         if self.is_coupled()
             && let Some(mut known) = Known::of_all(self, near)
-            && let Some(wheels) = self.settle_together(stance, &contacts, &mut known)
+            && let Some(wheels) = self.settle_together(stance, &contacts, &mut known, Accuracy::EXACT)
         {
             return Ok(wheels);
         }
@@ -76,7 +76,9 @@ impl<'a> OnGround<'a> {
         let wheels = if self.rover.suspension().is_none() && self.is_coupled() {
             let mut contacts = Vec::with_capacity(slips.len());
             self.meet(stance, slips, &mut contacts);
-            if let Some(wheels) = self.settle_together(stance, &contacts, &mut near.known) {
+            let known = &mut near.known;
+            let together = self.settle_together(stance, &contacts, known, Accuracy::EXACT);
+            if let Some(wheels) = together {
                 wheels
             } else {
                 let wheels = self.settle_in_turns(stance, &contacts, &near.wheels)?;
@@ -254,9 +256,11 @@ impl<'a> OnGround<'a> {
         stance: &Stance,
         slips: &[Slip],
         near: &mut Nearby<'a>,
+        accuracy: Accuracy,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         self.meet_near(stance, slips, near);
-        near.settle(self, stance, |contacts| self.settle_in_turns(stance, contacts, &[]))
+        let alone = |contacts: &[Contact]| self.settle_in_turns(stance, contacts, &[]);
+        near.settle(self, stance, accuracy, alone)
     }
 
     /// Does the same for a motion beside the one that is known, which stays known: to first order in
@@ -269,7 +273,8 @@ impl<'a> OnGround<'a> {
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         self.meet_near(stance, slips, near);
         let beside = near.beside(self, stance);
-        beside.map_or_else(|| self.reactions_after(stance, slips, near), Ok)
+        let anew = || self.reactions_after(stance, slips, near, Accuracy::EXACT);
+        beside.map_or_else(anew, Ok)
     }
 
     /// What each wheel meets, kept with what is known of a motion nearby.

@@ -99,12 +99,25 @@ struct Slope {
 
 stored!(struct Slope { depth, forces, moments, width });
 
-/// Loads this near to those of the last sinkages are met by the curves [ln F_z]: what they leave
-/// out is below rounding, and where forces have a kink below this.
-const CLOSE: f64 = 1e-8;
-/// What a curve leaves out is below the product of its distances from the points that it goes
-/// through [ln F_z].
-const EXACT: f64 = 1e-13;
+/// How exactly forces are sought, in ln F_z: what curves leave out where forces are smooth is below
+/// the product of their distances from the points that they go through, and beside a kink below the
+/// distance from the nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Accuracy {
+    product: f64,
+    distance: f64,
+}
+
+impl Accuracy {
+    /// To rounding.
+    pub(crate) const EXACT: Self = Self { product: 1e-13, distance: 1e-8 };
+
+    /// To an error relative to the forces [-], which kinks may exceed; at the most to rounding.
+    pub(crate) fn to(error: f64) -> Self {
+        Self { product: error.max(Self::EXACT.product), distance: f64::INFINITY }
+    }
+}
+
 /// Places nearer to each other than this tell nothing of a curve through both, and are the place
 /// that is sought [ln F_z].
 const APART: f64 = 1e-12;
@@ -123,6 +136,7 @@ impl OnGround<'_> {
         stance: &Stance,
         contacts: &[Contact],
         near: &mut Vec<Known>,
+        accuracy: Accuracy,
     ) -> Option<Vec<WheelReaction>> {
         let sharing = Sharing::of(self, stance)?;
         if near.len() != contacts.len() {
@@ -146,7 +160,7 @@ impl OnGround<'_> {
         for _ in 0..MOST_ROUNDS {
             self.try_next(&mut curves, &loads)?;
             sharing.meet(&curves, &mut loads)?;
-            if curves.iter().zip(&loads).all(|(curve, load)| curve.is_met(*load)) {
+            if curves.iter().zip(&loads).all(|(curve, load)| curve.is_met(*load, accuracy)) {
                 let each = curves.iter().zip(&loads).map(|(curve, load)| curve.reaction(*load));
                 let (wheels, known) = each.unzip();
                 *near = known;
@@ -455,13 +469,14 @@ impl<'a> Curve<'a> {
         Slope { depth, forces: place.forces, moments: place.moments, width: f64::INFINITY }
     }
 
-    /// Whether the curve under a load [N] is as exact as rounding.
-    pub(super) fn is_met(&self, load: f64) -> bool {
+    /// Whether the curve under a load [N] is as exact as that.
+    pub(super) fn is_met(&self, load: f64, accuracy: Accuracy) -> bool {
         let load = elementary::ln(load);
         let near = (load - self.last().load).abs();
         let others =
             if self.count > 1 { self.far(load) } else { self.slope.width.max(self.change) };
-        near <= APART || near <= CLOSE && near * others.max(near) <= EXACT
+        near <= APART
+            || near <= accuracy.distance && near * others.max(near) <= accuracy.product
     }
 
     /// Weights of the places at a load ln *F_z*.
@@ -555,14 +570,16 @@ pub(crate) fn add_weighted(sum: &mut WheelForces, forces: &WheelForces, weight: 
 impl Nearby<'_> {
     /// The reaction on every wheel, and what is known of them for a motion nearby.
     ///
-    /// * `alone`: that of wheels that are settled one by one
+    /// * `accuracy`: of wheels that settle together
+    /// * `alone`: the reaction of wheels that are settled one by one
     pub(super) fn settle(
         &mut self,
         ground: &OnGround<'_>,
         stance: &Stance,
+        accuracy: Accuracy,
         alone: impl FnOnce(&[Contact]) -> Result<Vec<WheelReaction>, ReactionError>,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
-        let together = ground.settle_together(stance, &self.contacts, &mut self.wheels);
+        let together = ground.settle_together(stance, &self.contacts, &mut self.wheels, accuracy);
         if let Some(wheels) = together {
             return Ok(wheels);
         }
@@ -599,7 +616,11 @@ impl Known {
 
     /// Returns what is known of a wheel; as yet its forces change with the load as those of a
     /// shallow one.
-    fn of(ground: &OnGround<'_>, mount: &Mount, wheel: &WheelReaction) -> Option<Self> {
+    pub(super) fn of(
+        ground: &OnGround<'_>,
+        mount: &Mount,
+        wheel: &WheelReaction,
+    ) -> Option<Self> {
         let forces = wheel.settled.forces;
         let OnGround { ground: Ground { soil, .. }, gravity, .. } = *ground;
         let contact = Contact { wheel: mount.unit.wheel, soil: *soil, slip: wheel.slip, gravity };

@@ -14,6 +14,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use super::load::Tipping;
 use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction, forces_of};
 use super::posture::{OF_BODY, Posture, StandingMotion};
+use super::settling::Accuracy;
 use super::several_soils::Met;
 use super::state::RoverState;
 use super::statics::{Balance, Resultant};
@@ -146,7 +147,7 @@ impl OnGround<'_> {
         near: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let mut near = NearbyStanding { wheels: near.to_vec(), ..NearbyStanding::default() };
-        self.reactions_standing_after(posture, up, slips, &mut near)
+        self.reactions_standing_after(posture, up, slips, &mut near, Accuracy::EXACT)
     }
 
     /// The same by what is known of a motion nearby; this one is known afterwards.
@@ -159,14 +160,16 @@ impl OnGround<'_> {
         up: Vec3,
         slips: &[Slip],
         near: &mut NearbyStanding,
+        accuracy: Accuracy,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let sought = self.sought(posture, up, slips, &near.wheels);
-        let wheels = match sought.together(&mut near.known) {
-            Some(wheels) => {
-                near.inverse = None;
-                wheels
-            }
-            None => sought.in_turns(near)?,
+        let wheels = if let Some(wheels) = sought.together(&mut near.known, accuracy) {
+            near.inverse = None;
+            wheels
+        } else {
+            let wheels = sought.in_turns(near)?;
+            near.known = sought.known_of(&wheels).unwrap_or_default();
+            wheels
         };
         near.wheels.clone_from(&wheels);
         Ok(wheels)
@@ -185,7 +188,8 @@ impl OnGround<'_> {
         near: &mut NearbyStanding,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let beside = self.sought(posture, up, slips, &[]).beside(&near.known);
-        beside.map_or_else(|| self.reactions_standing_after(posture, up, slips, near), Ok)
+        let anew = || self.reactions_standing_after(posture, up, slips, near, Accuracy::EXACT);
+        beside.map_or_else(anew, Ok)
     }
 
     /// * `before`: the wheels in a motion nearby, or none

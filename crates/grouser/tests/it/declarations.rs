@@ -133,10 +133,14 @@ fn is_a_key_too(name: &str) -> bool {
 }
 
 /// Where a name that only results have stands once more, and why.
-const OTHER_PLACES: [(&str, &str); 7] = [
+const OTHER_PLACES: [(&str, &str); 10] = [
     // Options of the program and arguments of Python's functions, which results repeat.
     ("most_slope_deg", "src/args/route.rs"),
     ("most_slope_deg", "grouser-python/src/routes.rs"),
+    // Parts of a log that are asked for.
+    ("from_s", "src/args/replay.rs"),
+    ("to_s", "src/args/replay.rs"),
+    ("to_s", "grouser-python/src/replay.rs"),
     // A direction on a path that is asked for.
     ("heading_deg", "grouser-python/src/paths.rs"),
     ("along_m", "grouser-python/src/paths.rs"),

@@ -89,10 +89,11 @@ impl SteadySolver<'_, '_> {
         jacobian: &Matrix3<f64>,
     ) -> Option<SteadyState> {
         let inverse = jacobian.try_inverse()?;
-        let way = self.size(&(inverse * acceleration_of(here)));
+        let step = inverse * acceleration_of(here);
+        let way = self.size(&step);
         if way <= CLOSE {
             self.memory.inverse = Some(inverse);
-            return Some(steady_state_at(yaw, *velocities, here.clone(), None));
+            return Some(steady_state_at(yaw, velocities - step, here.clone(), None));
         }
         let (longest, before) = (STRAYING * way, self.memory.inverse);
         let found = (way <= NEAR)

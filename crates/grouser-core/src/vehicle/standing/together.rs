@@ -13,17 +13,19 @@
 //! rover on warped ground the second equation makes sinkages differ by the warp, and takes curves
 //! of its own at N°; elsewhere λ = 0. Where that would have to hold a wheel down, it is lifted: its
 //! load, 0, decides on λ, and its sinkage would have to be less than none. The tangent of both
-//! leads to N in three or four steps of Newton's, which look at no wheel.
+//! leads to N in three or four steps of Newton's, which look at no wheel, and in more, shorter ones where
+//! a wheel is light.
 //!
 //! Only the usual case is here: all other wheels stand, and F_z grows with the sinkage about as it
 //! does for a shallow wheel. Elsewhere nothing is found.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{AGREED, NEARLY, Sought};
+use super::{AGREED, LIGHT, NEARLY, Sought};
+use crate::contact::WheelForces;
 use crate::stored::stored;
-use crate::vehicle::on_ground::WheelReaction;
-use crate::vehicle::settling::{Curve, Known};
+use crate::vehicle::on_ground::{WheelReaction, forces_of};
+use crate::vehicle::settling::{Accuracy, Curve, Known};
 use crate::vehicle::several_soils::Mixture;
 use crate::vehicle::statics::Transfer;
 
@@ -69,12 +71,39 @@ enum Unfound {
 }
 
 impl Sought<'_> {
+    /// What is known of wheels that were settled in another way, for the next search; none where
+    /// that is none of its usual cases.
+    pub(super) fn known_of(&self, wheels: &[WheelReaction]) -> Option<KnownStanding> {
+        let ground = self.ground;
+        let of = |wheels: &[WheelReaction]| -> Vec<Option<Known>> {
+            let each = wheels.iter().zip(ground.rover.mounts());
+            each.map(|(wheel, mount)| Known::of(ground, mount, wheel)).collect()
+        };
+        let found = of(wheels);
+        let mut least = Vec::new();
+        if self.warp().is_some() {
+            let forces: Vec<WheelForces> = forces_of(wheels).copied().collect();
+            let loads = self.balanced(&forces).ok()?;
+            let under_least = ground.settle_standing(&self.met, &loads, |_| None).ok()?;
+            least = of(&under_least).into_iter().collect::<Option<_>>()?;
+        }
+        let lifted = found.iter().position(Option::is_none);
+        let under = found.into_iter().enumerate();
+        let under = under.map(|(wheel, it)| it.or_else(|| least.get(wheel).copied()));
+        Some(KnownStanding { under: under.collect::<Option<_>>()?, least, lifted })
+    }
+
     /// The reaction on every wheel, sought from those of a motion nearby, which this one is
     /// afterwards; none where the usual search fails.
-    pub(crate) fn together(&self, near: &mut KnownStanding) -> Option<Vec<WheelReaction>> {
-        let found = self.together_with(near, near.lifted).or_else(|unfound| match unfound {
-            Unfound::Lifts(wheel) => self.together_with(near, Some(wheel)),
-            Unfound::Unusual if near.lifted.is_some() => self.together_with(near, None),
+    pub(crate) fn together(
+        &self,
+        near: &mut KnownStanding,
+        accuracy: Accuracy,
+    ) -> Option<Vec<WheelReaction>> {
+        let with = |lifted| self.together_with(near, lifted, accuracy);
+        let found = with(near.lifted).or_else(|unfound| match unfound {
+            Unfound::Lifts(wheel) => with(Some(wheel)),
+            Unfound::Unusual if near.lifted.is_some() => with(None),
             Unfound::Unusual => Err(unfound),
         });
         let (reactions, known) = found.ok()?;
@@ -87,13 +116,14 @@ impl Sought<'_> {
         &self,
         near: &KnownStanding,
         lifted: Option<usize>,
+        accuracy: Accuracy,
     ) -> Result<(Vec<WheelReaction>, KnownStanding), Unfound> {
         let mixtures = self.mixtures();
         let mut wheels = self.start(&mixtures, near, lifted)?;
         for _ in 0..MOST_ROUNDS {
             wheels.look().ok_or(Unfound::Unusual)?;
             wheels.meet()?;
-            if wheels.are_met() {
+            if wheels.are_met(accuracy) {
                 return wheels.reactions().ok_or(Unfound::Unusual);
             }
         }
@@ -181,11 +211,13 @@ impl Settling<'_> {
 
     /// Sets the loads that balance the rover with the forces that the curves have under them.
     fn meet(&mut self) -> Result<(), Unfound> {
-        const MOST_STEPS: usize = 12;
+        const MOST_STEPS: usize = 24;
         let mut before = f64::INFINITY;
         for _ in 0..MOST_STEPS {
             let (miss, tangent) = self.miss();
             let step = tangent.lu().solve(&miss).ok_or(Unfound::Unusual)?;
+            let share = self.share_of(&step)?;
+            let step = share * step;
             let size = step.amax() / self.weight;
             let count = self.loads.len();
             self.loads -= step.rows(0, count);
@@ -193,12 +225,31 @@ impl Settling<'_> {
                 self.along -= step[count];
             }
             self.check()?;
-            if size <= AGREED || size <= NEARLY && size >= before {
+            if share == 1.0 && (size <= AGREED || size <= NEARLY && size >= before) {
                 return Ok(());
             }
             before = size;
         }
         Err(Unfound::Unusual)
+    }
+
+    /// The share of a step that leaves a tenth of its load to each wheel that stands [-]: over the
+    /// logarithm of a light load forces are far from the tangent. One with hardly a load that would
+    /// lose the rest lifts.
+    fn share_of(&self, step: &DVector<f64>) -> Result<f64, Unfound> {
+        const LEFT: f64 = 0.1;
+        let mut share = 1.0;
+        for (wheel, (load, step)) in self.loads.iter().zip(step.iter()).enumerate() {
+            let stands = Some(wheel) != self.lifted && *load > 0.0;
+            if !stands || load - step >= LEFT * load {
+                continue;
+            }
+            if *load < LIGHT * self.weight && self.warp.is_some() && self.lifted.is_none() {
+                return Err(Unfound::Lifts(wheel));
+            }
+            share = f64::min(share, (1.0 - LEFT) * load / step);
+        }
+        Ok(share)
     }
 
     /// Checks that no wheel but the lifted one would have to be held down.
@@ -267,13 +318,13 @@ impl Settling<'_> {
         gap + mode.iter().enumerate().map(closed).sum::<f64>()
     }
 
-    /// Whether all curves are as exact as rounding.
-    fn are_met(&self) -> bool {
+    /// Whether all curves are as exact as that.
+    fn are_met(&self, accuracy: Accuracy) -> bool {
         let least = self.least_loads();
         let under = self.under.iter().zip(self.loads.iter()).enumerate();
         let mut under = under.filter(|(wheel, _)| Some(*wheel) != self.lifted).map(|(_, it)| it);
         let mut of_least = self.least.iter().zip(least.iter());
-        let is_met = |(curve, load): (&Curve<'_>, &f64)| curve.is_met(*load);
+        let is_met = |(curve, load): (&Curve<'_>, &f64)| curve.is_met(*load, accuracy);
         under.all(is_met) && (self.lifted.is_some() || of_least.all(is_met))
     }
 
