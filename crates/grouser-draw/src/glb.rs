@@ -36,9 +36,9 @@ const PIECES: usize = 60;
 
 impl Animation {
     /// The run as binary glTF 2.0: body, wheels with their grousers, the ground with contour lines,
-    /// tracks that appear as they are made, and arrows for the soil's forces on the wheels. A second
-    /// of it is a second of the run, or as many as `extras` of its animation says, which has the
-    /// scale of the arrows, too.
+    /// tracks that appear as they are made, and arrows for the soil's forces on the wheels. A
+    /// second of it is a second of the run, or as many as `extras` of its animation says, which has
+    /// the scale of the arrows, too.
     #[must_use]
     pub fn to_glb(&self) -> Vec<u8> {
         let mut file = File::new();

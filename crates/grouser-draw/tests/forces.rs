@@ -138,8 +138,8 @@ fn an_arrow_is_the_force_of_its_record() {
 }
 
 /// Where the motion is steady the soil carries the weight, under stiff rovers and on rockers: all
-/// arrows together are as large as it and point straight up, over heights to half a per cent. In the
-/// frames of the axles, which lean against the ground, they would be 1.6 % off for the first rover.
+/// arrows together are as large as it and point straight up, over heights to half a per cent. In
+/// the frames of the axles, which lean against the ground, they would be 1.6 % off for HAKUTO.
 #[test]
 fn arrows_together_carry_the_weight() {
     let ripples = "[terrain]\nsurface = \"ripple\"\namplitude_m = 0.03\nwavelength_m = 1.0";

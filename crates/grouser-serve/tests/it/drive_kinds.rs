@@ -1,6 +1,6 @@
-//! Rovers and grounds of every kind are driven from outside: motors, batteries, steering, suspensions
-//! and zones of soil, dynamic and quasi-steady, ahead, in curves, back and on the spot. The states
-//! that go with the answers lead where the library leads that keeps its run.
+//! Rovers and grounds of every kind are driven from outside: motors, batteries, steering,
+//! suspensions and zones of soil, dynamic and quasi-steady, ahead, in curves, back and on the spot.
+//! The states that go with the answers lead where the library leads that keeps its run.
 
 use std::fs;
 
@@ -47,7 +47,8 @@ fn folder() -> (TempDir, Served, Vec<String>) {
     let name = |(kind, rover, ground): (&str, &str, &str)| {
         let file = format!("{kind}.toml");
         let scenario = format!(
-            "schema = \"scenario/1\"\nname = \"{kind}\"\nrover = \"{rover}\"\nsoil = \"toyoura\"\n{ground}"
+            "schema = \"scenario/1\"\nname = \"{kind}\"\nrover = \"{rover}\"\n\
+             soil = \"toyoura\"\n{ground}"
         );
         write(&file, &scenario);
         file
