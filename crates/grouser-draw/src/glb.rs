@@ -16,11 +16,11 @@ use grouser_core::vehicle::Mount;
 use grouser_core::wheel::Wheel;
 use serde_json::json;
 
-use self::arrow::Arrows;
+use self::arrow::ForceArrows;
 use self::file::File;
 use self::solid::Solid;
 use crate::animation::Animation;
-use crate::motion::{Pose, StandingWheel, quaternion_to};
+use crate::motion::{Pose, StandingWheel, quaternion_to, rotations};
 use crate::relief::contour_step;
 use crate::rover::{Block, PlacedWheel};
 use crate::scene::{Actor, Around};
@@ -55,7 +55,7 @@ impl Animation {
         for (actor, row) in self.actors.iter().zip(&self.rows) {
             let at = |times: &[f64]| times.iter().map(|time| actor.motion.at(*time)).collect();
             let [poses, in_pictures]: [Vec<Pose>; 2] = [at(&times), at(&self.times)];
-            let arrows = Arrows { poses: &in_pictures, input: pictures, newtons_per_metre };
+            let arrows = ForceArrows { poses: &in_pictures, input: pictures, newtons_per_metre };
             below.push(rover(&mut file, actor, &row.name, (&poses, input), &arrows));
         }
         let (name, slope) = match self.scene.ground {
@@ -198,7 +198,7 @@ fn rover(
     actor: &Actor,
     name: &str,
     (poses, input): (&[Pose], usize),
-    arrows: &Arrows<'_>,
+    arrows: &ForceArrows<'_>,
 ) -> usize {
     let likeness = actor.likeness();
     let mut body = Solid::default();
@@ -276,21 +276,6 @@ fn rover(
     let output = file.numbers("VEC4", &rotations, false, None);
     file.channel(node, "rotation", [input, output], "LINEAR");
     node
-}
-
-/// Rotations over time, of the two quaternions of each the one nearer to that before.
-fn rotations(poses: &[Pose], of: impl Fn(&Pose) -> [f64; 4]) -> Vec<f64> {
-    let mut last: Option<[f64; 4]> = None;
-    let mut all = Vec::with_capacity(4 * poses.len());
-    for pose in poses {
-        let mut next = of(pose);
-        if last.is_some_and(|last| last.iter().zip(&next).map(|(a, b)| a * b).sum::<f64>() < 0.0) {
-            next = next.map(|part| -part);
-        }
-        all.extend(next);
-        last = Some(next);
-    }
-    all
 }
 
 /// A rotation about z, as a quaternion.

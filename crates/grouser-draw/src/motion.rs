@@ -248,6 +248,21 @@ pub fn quaternion_to([x, y, z]: [Vec3; 3]) -> [f64; 4] {
     q.map(|part| 0.5 * part / size.sqrt())
 }
 
+/// Rotations over time as quaternions, of the two of each the one nearer to that before.
+pub(crate) fn rotations(poses: &[Pose], of: impl Fn(&Pose) -> [f64; 4]) -> Vec<f64> {
+    let mut last: Option<[f64; 4]> = None;
+    let mut all = Vec::with_capacity(4 * poses.len());
+    for pose in poses {
+        let mut next = of(pose);
+        if last.is_some_and(|last| last.iter().zip(&next).map(|(a, b)| a * b).sum::<f64>() < 0.0) {
+            next = next.map(|part| -part);
+        }
+        all.extend(next);
+        last = Some(next);
+    }
+    all
+}
+
 impl WheelPose {
     /// The soil's force on it along its forward direction, its axle and upright to both [N].
     #[must_use]

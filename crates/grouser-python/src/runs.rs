@@ -12,7 +12,6 @@ use grouser::document::{
 use grouser::simulation::Scenario;
 use grouser::soil::Soil;
 use grouser::vehicle::DriveLaw;
-use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
@@ -20,7 +19,7 @@ use rayon::prelude::*;
 use crate::descriptions::Document;
 use crate::errors;
 use crate::gradients::no_such_key;
-use crate::varied::{self, KEYS, RIM_SPEED, VariedKeys};
+use crate::varied::{self, Index, KEYS, RIM_SPEED, VariedKeys};
 use crate::wheels::{check_or_nan, inside};
 
 /// What a run is made of: a scenario, or a mission.
@@ -100,9 +99,6 @@ pub(crate) struct Runs<V> {
     pub(crate) count: usize,
     pub(crate) outside_is_nan: bool,
 }
-
-/// Which of some things each run has, if there are several.
-pub(crate) type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
 
 impl<V: RunBase> Runs<V> {
     /// Checks that every run has a scenario, a soil where there are some, and numbers in their

@@ -10,6 +10,9 @@ use pyo3::types::PyDict;
 
 use crate::{descriptions as read, errors};
 
+/// Which of some things each run has, if there are several.
+pub(crate) type Index<'py> = Option<PyReadonlyArray1<'py, i64>>;
+
 /// Keys of documents with a number for each entry.
 pub(crate) struct VariedKeys {
     keys: Vec<VariedKey>,

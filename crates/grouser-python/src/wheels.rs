@@ -19,9 +19,8 @@ use rayon::prelude::*;
 
 use crate::columns::{NO_WHEEL, wheel_names, wheel_row};
 use crate::descriptions::Document;
-use crate::runs::Index;
 use crate::validity::bits;
-use crate::varied::{self, VariedKeys};
+use crate::varied::{self, Index, VariedKeys};
 use crate::{errors, threads};
 
 /// Wheels between two checks for signals, to begin with: a part of a second for the slowest model.

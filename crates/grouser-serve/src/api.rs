@@ -40,6 +40,9 @@ mod route;
 #[cfg(feature = "server")]
 mod traverse;
 
+use grouser::document::json;
+use serde_json::json;
+
 use crate::asked::Read;
 use crate::console::Console;
 
@@ -87,9 +90,24 @@ pub(crate) static LISTS: &[(&str, List)] = &[
     ("presets", lists::presets),
     ("documents", lists::documents),
     ("files", lists::files),
-    ("questions", lists::questions),
+    ("questions", questions),
     #[cfg(feature = "server")]
     ("campaigns", campaign::list),
     #[cfg(feature = "server")]
     ("data-sets", fit_task::data_sets),
 ];
+
+/// The questions that are answered here: that of the card where something draws it.
+#[cfg_attr(
+    not(feature = "server"),
+    expect(unused_variables, reason = "without a server nothing draws cards")
+)]
+fn questions(console: &Console) -> String {
+    let names = QUESTIONS.iter().map(|(name, _)| *name);
+    #[cfg(feature = "server")]
+    let names = names
+        .chain(OF_FOLDERS.iter().map(|(name, _)| *name))
+        .filter(|name| *name != CARD || console.card.is_some());
+    let rows: Vec<_> = names.map(|name| json!({ "name": name })).collect();
+    json::line(&json!({ "schema": "grouser.questions.v1", "rows": rows })) + "\n"
+}

@@ -9,7 +9,7 @@ use crate::simulation::Scenario;
 use crate::terrain::Ground;
 use crate::terrain::surface::{Ripple, Surface};
 use crate::units::{Vec2, Vec3};
-use crate::vehicle::settling::Accuracy;
+use crate::vehicle::settling::ForceAccuracy;
 use crate::vehicle::standing::{KnownStanding, NearbyStanding};
 use crate::vehicle::{LoadSharing, OwnMoments, Rover, RoverState, Suspension, WheelReaction};
 
@@ -71,7 +71,7 @@ fn both(
     let lifted = (0..4).find(|wheel| share < 0.2 * (*wheel as f64 + 1.0));
     let mut known = KnownStanding::default();
     known.lifted = lifted;
-    let together = sought.together(&mut known, Accuracy::EXACT)?;
+    let together = sought.together(&mut known, ForceAccuracy::EXACT)?;
     let in_turns = sought.in_turns(&mut NearbyStanding::default()).expect("they settle");
     Some((together, known.lifted, in_turns))
 }

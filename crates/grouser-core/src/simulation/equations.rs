@@ -21,7 +21,7 @@ use crate::vehicle::statics::centre_of_mass;
 use crate::vehicle::{
     Acceleration, BellyPoint, Drive, Driven, Electrical, MotorLimits, OwnMoments, Posture,
     ReactionError, Rover, RoverState, Stance, Standing, Underside, WheelReaction, dynamics,
-    on_ground::OnGround, settling::Accuracy, settling::Known, settling::Nearby,
+    on_ground::OnGround, settling::ForceAccuracy, settling::Known, settling::Nearby,
 };
 
 /// The equations of motion of a rover whose motors are set to given speeds.
@@ -131,7 +131,7 @@ enum Search {
     /// From shallow sinkages: the same whatever was evaluated before.
     Anew,
     /// From the wheels of the last attempt.
-    Nearby(Accuracy),
+    Nearby(ForceAccuracy),
     /// Beside the last attempt, which stays the last: to first order in how far.
     Beside,
 }
@@ -534,12 +534,12 @@ impl<'a> Equations<'a> {
     /// that the answer differs in its last digits. A solver may try states that no rover can have,
     /// so the reason of a failure is kept for when it gives up.
     pub(super) fn attempt(&self, state: &RoverState) -> Option<Evaluation> {
-        self.attempt_by(Search::Nearby(Accuracy::EXACT), state)
+        self.attempt_by(Search::Nearby(ForceAccuracy::EXACT), state)
     }
 
     /// Does the same to an error relative to the forces [-], where a solver is still on its way.
     pub(super) fn attempt_to(&self, error: f64, state: &RoverState) -> Option<Evaluation> {
-        self.attempt_by(Search::Nearby(Accuracy::to(error)), state)
+        self.attempt_by(Search::Nearby(ForceAccuracy::to(error)), state)
     }
 
     /// Attempts a state beside the last attempt, for a difference: to first order in how far it is.
@@ -593,7 +593,7 @@ impl<'a> Equations<'a> {
         }
         self.count(|work| work.evaluations += 1);
         let wheel_speeds: Vec<f64> = self.on_ground.rover.wheel_speeds(rim_speeds).collect();
-        let search = Search::Nearby(Accuracy::EXACT);
+        let search = Search::Nearby(ForceAccuracy::EXACT);
         let evaluated = self.evaluate_with(state, rim_speeds, &wheel_speeds, search);
         let evaluation = evaluated.map_err(|failure| self.keep(failure)).ok()?;
         *self.last.borrow_mut() = Some((*state, rim_speeds.to_vec(), evaluation.clone()));

@@ -6,7 +6,7 @@ use super::by_wheel::Differences;
 use super::load;
 use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction, forces_of};
 use super::ruts::Ruts;
-use super::settling::{Accuracy, Known, KnownWheels, Nearby};
+use super::settling::{ForceAccuracy, Known, KnownWheels, Nearby};
 use crate::contact::{Contact, Slip, WheelForces, settle_from, settle_many};
 use crate::newton;
 use crate::soil::Soil;
@@ -54,7 +54,8 @@ impl<'a> OnGround<'a> {
         self.meet(stance, slips, &mut contacts);
         if self.is_coupled()
             && let Some(mut known) = Known::of_all(self, near)
-            && let Some(wheels) = self.settle_together(stance, &contacts, &mut known, Accuracy::EXACT)
+            && let Some(wheels) =
+                self.settle_together(stance, &contacts, &mut known, ForceAccuracy::EXACT)
         {
             return Ok(wheels);
         }
@@ -77,7 +78,7 @@ impl<'a> OnGround<'a> {
             let mut contacts = Vec::with_capacity(slips.len());
             self.meet(stance, slips, &mut contacts);
             let known = &mut near.known;
-            let together = self.settle_together(stance, &contacts, known, Accuracy::EXACT);
+            let together = self.settle_together(stance, &contacts, known, ForceAccuracy::EXACT);
             if let Some(wheels) = together {
                 wheels
             } else {
@@ -256,7 +257,7 @@ impl<'a> OnGround<'a> {
         stance: &Stance,
         slips: &[Slip],
         near: &mut Nearby<'a>,
-        accuracy: Accuracy,
+        accuracy: ForceAccuracy,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         self.meet_near(stance, slips, near);
         let alone = |contacts: &[Contact]| self.settle_in_turns(stance, contacts, &[]);
@@ -273,7 +274,7 @@ impl<'a> OnGround<'a> {
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         self.meet_near(stance, slips, near);
         let beside = near.beside(self, stance);
-        let anew = || self.reactions_after(stance, slips, near, Accuracy::EXACT);
+        let anew = || self.reactions_after(stance, slips, near, ForceAccuracy::EXACT);
         beside.map_or_else(anew, Ok)
     }
 

@@ -103,12 +103,12 @@ stored!(struct Slope { depth, forces, moments, width });
 /// the product of their distances from the points that they go through, and beside a kink below the
 /// distance from the nearest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Accuracy {
+pub(crate) struct ForceAccuracy {
     product: f64,
     distance: f64,
 }
 
-impl Accuracy {
+impl ForceAccuracy {
     /// To rounding.
     pub(crate) const EXACT: Self = Self { product: 1e-13, distance: 1e-8 };
 
@@ -136,7 +136,7 @@ impl OnGround<'_> {
         stance: &Stance,
         contacts: &[Contact],
         near: &mut Vec<Known>,
-        accuracy: Accuracy,
+        accuracy: ForceAccuracy,
     ) -> Option<Vec<WheelReaction>> {
         let sharing = Sharing::of(self, stance)?;
         if near.len() != contacts.len() {
@@ -470,13 +470,12 @@ impl<'a> Curve<'a> {
     }
 
     /// Whether the curve under a load [N] is as exact as that.
-    pub(super) fn is_met(&self, load: f64, accuracy: Accuracy) -> bool {
+    pub(super) fn is_met(&self, load: f64, accuracy: ForceAccuracy) -> bool {
         let load = elementary::ln(load);
         let near = (load - self.last().load).abs();
         let others =
             if self.count > 1 { self.far(load) } else { self.slope.width.max(self.change) };
-        near <= APART
-            || near <= accuracy.distance && near * others.max(near) <= accuracy.product
+        near <= APART || near <= accuracy.distance && near * others.max(near) <= accuracy.product
     }
 
     /// Weights of the places at a load ln *F_z*.
@@ -576,7 +575,7 @@ impl Nearby<'_> {
         &mut self,
         ground: &OnGround<'_>,
         stance: &Stance,
-        accuracy: Accuracy,
+        accuracy: ForceAccuracy,
         alone: impl FnOnce(&[Contact]) -> Result<Vec<WheelReaction>, ReactionError>,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let together = ground.settle_together(stance, &self.contacts, &mut self.wheels, accuracy);
@@ -616,11 +615,7 @@ impl Known {
 
     /// Returns what is known of a wheel; as yet its forces change with the load as those of a
     /// shallow one.
-    pub(super) fn of(
-        ground: &OnGround<'_>,
-        mount: &Mount,
-        wheel: &WheelReaction,
-    ) -> Option<Self> {
+    pub(super) fn of(ground: &OnGround<'_>, mount: &Mount, wheel: &WheelReaction) -> Option<Self> {
         let forces = wheel.settled.forces;
         let OnGround { ground: Ground { soil, .. }, gravity, .. } = *ground;
         let contact = Contact { wheel: mount.unit.wheel, soil: *soil, slip: wheel.slip, gravity };

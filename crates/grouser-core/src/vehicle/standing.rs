@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use super::load::Tipping;
 use super::on_ground::{OnGround, ReactionError, Stance, WheelReaction, forces_of};
 use super::posture::{OF_BODY, Posture, StandingMotion};
-use super::settling::Accuracy;
+use super::settling::ForceAccuracy;
 use super::several_soils::Met;
 use super::state::RoverState;
 use super::statics::{Balance, Resultant};
@@ -147,7 +147,7 @@ impl OnGround<'_> {
         near: &[WheelReaction],
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let mut near = NearbyStanding { wheels: near.to_vec(), ..NearbyStanding::default() };
-        self.reactions_standing_after(posture, up, slips, &mut near, Accuracy::EXACT)
+        self.reactions_standing_after(posture, up, slips, &mut near, ForceAccuracy::EXACT)
     }
 
     /// The same by what is known of a motion nearby; this one is known afterwards.
@@ -160,7 +160,7 @@ impl OnGround<'_> {
         up: Vec3,
         slips: &[Slip],
         near: &mut NearbyStanding,
-        accuracy: Accuracy,
+        accuracy: ForceAccuracy,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let sought = self.sought(posture, up, slips, &near.wheels);
         let wheels = if let Some(wheels) = sought.together(&mut near.known, accuracy) {
@@ -188,7 +188,7 @@ impl OnGround<'_> {
         near: &mut NearbyStanding,
     ) -> Result<Vec<WheelReaction>, ReactionError> {
         let beside = self.sought(posture, up, slips, &[]).beside(&near.known);
-        let anew = || self.reactions_standing_after(posture, up, slips, near, Accuracy::EXACT);
+        let anew = || self.reactions_standing_after(posture, up, slips, near, ForceAccuracy::EXACT);
         beside.map_or_else(anew, Ok)
     }
 

@@ -5,15 +5,14 @@ use grouser_core::vehicle::Mount;
 use serde_json::json;
 
 use super::file::File;
-use super::rotations;
 use super::solid::Solid;
-use crate::motion::{Pose, quaternion_to};
+use crate::motion::{Pose, quaternion_to, rotations};
 
 /// Half the thickness of an arrow over the wheel's radius; the head is twice as thick.
 const THICK: f64 = 0.05;
 
 /// What the arrows of a rover have in common.
-pub(super) struct Arrows<'a> {
+pub(super) struct ForceArrows<'a> {
     /// The rover in each picture.
     pub(super) poses: &'a [Pose],
     /// The accessor of the pictures' times.
@@ -22,7 +21,7 @@ pub(super) struct Arrows<'a> {
     pub(super) newtons_per_metre: f64,
 }
 
-impl Arrows<'_> {
+impl ForceArrows<'_> {
     /// The node of a wheel's contact, in the frame of its mount, with the arrow of the force there:
     /// from the surface under the hub. Without a force the arrow has no size.
     ///

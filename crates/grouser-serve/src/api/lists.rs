@@ -1,4 +1,4 @@
-//! What there is to choose from: presets, the documents of the folder, and what may be asked.
+//! What there is to choose from: presets, and the documents of the folder.
 
 use grouser::document::{self, Kind, json};
 use serde_json::json;
@@ -29,19 +29,4 @@ pub(super) fn documents(console: &Console) -> String {
     let rows = console.folder.list().into_iter();
     let rows: Vec<_> = rows.map(|it| json!({ "kind": it.kind.name(), "path": it.path })).collect();
     json::line(&json!({ "schema": "grouser.documents.v1", "rows": rows })) + "\n"
-}
-
-/// The questions that are answered here: that of the card where something draws it.
-#[cfg_attr(
-    not(feature = "server"),
-    expect(unused_variables, reason = "without a server nothing draws cards")
-)]
-pub(super) fn questions(console: &Console) -> String {
-    let names = super::QUESTIONS.iter().map(|(name, _)| *name);
-    #[cfg(feature = "server")]
-    let names = names
-        .chain(super::OF_FOLDERS.iter().map(|(name, _)| *name))
-        .filter(|name| *name != super::CARD || console.card.is_some());
-    let rows: Vec<_> = names.map(|name| json!({ "name": name })).collect();
-    json::line(&json!({ "schema": "grouser.questions.v1", "rows": rows })) + "\n"
 }

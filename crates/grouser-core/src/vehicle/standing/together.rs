@@ -25,7 +25,7 @@ use super::{AGREED, LIGHT, NEARLY, Sought};
 use crate::contact::WheelForces;
 use crate::stored::stored;
 use crate::vehicle::on_ground::{WheelReaction, forces_of};
-use crate::vehicle::settling::{Accuracy, Curve, Known};
+use crate::vehicle::settling::{Curve, ForceAccuracy, Known};
 use crate::vehicle::several_soils::Mixture;
 use crate::vehicle::statics::Transfer;
 
@@ -98,7 +98,7 @@ impl Sought<'_> {
     pub(crate) fn together(
         &self,
         near: &mut KnownStanding,
-        accuracy: Accuracy,
+        accuracy: ForceAccuracy,
     ) -> Option<Vec<WheelReaction>> {
         let with = |lifted| self.together_with(near, lifted, accuracy);
         let found = with(near.lifted).or_else(|unfound| match unfound {
@@ -116,7 +116,7 @@ impl Sought<'_> {
         &self,
         near: &KnownStanding,
         lifted: Option<usize>,
-        accuracy: Accuracy,
+        accuracy: ForceAccuracy,
     ) -> Result<(Vec<WheelReaction>, KnownStanding), Unfound> {
         let mixtures = self.mixtures();
         let mut wheels = self.start(&mixtures, near, lifted)?;
@@ -319,7 +319,7 @@ impl Settling<'_> {
     }
 
     /// Whether all curves are as exact as that.
-    fn are_met(&self, accuracy: Accuracy) -> bool {
+    fn are_met(&self, accuracy: ForceAccuracy) -> bool {
         let least = self.least_loads();
         let under = self.under.iter().zip(self.loads.iter()).enumerate();
         let mut under = under.filter(|(wheel, _)| Some(*wheel) != self.lifted).map(|(_, it)| it);

@@ -33,7 +33,7 @@ impl Solved {
     pub fn corner(&self, most: usize) -> Option<Corner> {
         let Posterior { samples, .. } = self.solution.posterior.as_ref()?;
         let places = self.least_known(most);
-        let shown: Vec<Shown> = places.iter().map(|place| Shown::of(self, *place)).collect();
+        let shown: Vec<ShownKey> = places.iter().map(|place| ShownKey::of(self, *place)).collect();
         let figure = match &shown[..] {
             [only] => only.alone(samples).into(),
             all => grid(all, samples).into(),
@@ -74,7 +74,7 @@ impl Solved {
 }
 
 /// A key that is drawn.
-struct Shown {
+struct ShownKey {
     /// Its place among the fitted ones.
     place: usize,
     /// What it is called, with its unit.
@@ -85,7 +85,7 @@ struct Shown {
     interval: [f64; 2],
 }
 
-impl Shown {
+impl ShownKey {
     fn of(solved: &Solved, place: usize) -> Self {
         let record @ ParameterRecord { fit, p2_5, p97_5, .. } = &solved.records[place];
         let interval = [p2_5, p97_5].map(|end| end.unwrap_or(*fit));
@@ -138,7 +138,7 @@ fn label(ParameterRecord { key, .. }: &ParameterRecord) -> String {
 }
 
 /// Histograms on the diagonal, and clouds below it.
-fn grid(shown: &[Shown], samples: &Samples) -> Grid {
+fn grid(shown: &[ShownKey], samples: &Samples) -> Grid {
     let count = shown.len();
     let pairs = (count * count.saturating_sub(1) / 2).max(1);
     let rows = samples.thinned(POINTS.min(ALL_POINTS / pairs));
@@ -149,7 +149,7 @@ fn grid(shown: &[Shown], samples: &Samples) -> Grid {
             std::cmp::Ordering::Equal => y.histogram(samples),
             std::cmp::Ordering::Greater => x.cloud(y, &rows),
         };
-        let label = |is_there: bool, of: &Shown| {
+        let label = |is_there: bool, of: &ShownKey| {
             if is_there { of.label.clone() } else { String::new() }
         };
         let axes = (label(row + 1 == count, x), label(column == 0 && row > 0, y));
