@@ -8,14 +8,18 @@ import csv
 import math
 import sys
 from bisect import bisect
+from collections.abc import Callable, Iterable, Iterator
 
+Row = dict[str, str]
+#: Times [s], each with a number.
+Track = list[tuple[float, float]]
 folder, out = sys.argv[1:]
 WHEELS = ["LF", "LM", "LR", "RF", "RM", "RR"]
 
 
-def read(name, numbers):
+def read(name: str, numbers: Callable[[Row], Iterable[tuple[str, float]]]) -> dict[str, Track]:
     """Numbers over time [s], each with its name; angles go on over the end of a turn."""
-    tracks: dict[str, list[tuple[float, float]]] = {}
+    tracks: dict[str, Track] = {}
     with open(f"{folder}/{name}.csv") as file:
         for row in csv.DictReader(file):
             for key, value in numbers(row):
@@ -26,7 +30,7 @@ def read(name, numbers):
     return tracks
 
 
-def turned(row):
+def turned(row: Row) -> Iterator[tuple[str, float]]:
     """The angle of a joint, and its name: frames of wheels have their axes to the outside."""
     kind, _, wheel = row["Child_Frame_ID"].removeprefix("link_").partition("_")
     if wheel in WHEELS and kind in ("DRV", "STR"):
@@ -35,7 +39,7 @@ def turned(row):
         yield ("drive/" if kind == "DRV" else "steer/") + wheel, sign * angle
 
 
-def at(track, time):
+def at(track: Track, time: float) -> float | None:
     """What a track has between its readings, which are less than a second apart."""
     place = bisect(track, (time,))
     if not 0 < place < len(track) or track[place][0] - track[place - 1][0] > 1.0:
@@ -44,7 +48,7 @@ def at(track, time):
     return v0 + (v1 - v0) * (time - t0) / (t1 - t0)
 
 
-def quaternion(roll, pitch, yaw):
+def quaternion(roll: float, pitch: float, yaw: float) -> list[float]:
     (sr, cr), (sp, cp), (sy, cy) = ((math.sin(a / 2), math.cos(a / 2)) for a in (roll, pitch, yaw))
     x, y = sr * cp * cy - cr * sp * sy, cr * sp * cy + sr * cp * sy
     return [x, y, cr * cp * sy - sr * sp * cy, cr * cp * cy + sr * sp * sy]
@@ -60,8 +64,9 @@ turns = [f"{kind}/{wheel}" for kind in ("drive", "steer") for wheel in WHEELS]
 with open(out, "w") as file:
     print(*["time_s", *places, *(f"quat_{it}" for it in "xyzw"), *turns], sep=",", file=file)
     for (time, x), (_, y), (_, z) in zip(*fixes.values()):
-        attitude = [at(tracks[it], time) for it in ("roll", "pitch", "yaw")]
-        if None not in attitude:
+        found = (at(tracks[it], time) for it in ("roll", "pitch", "yaw"))
+        attitude = [it for it in found if it is not None]
+        if len(attitude) == 3:
             angles = [at(tracks.get(it, []), time) for it in turns]
             cells = [time, x, y, z, *quaternion(*attitude), *angles]
             print(*("" if it is None else it for it in cells), sep=",", file=file)

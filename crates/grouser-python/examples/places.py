@@ -8,20 +8,21 @@ import csv
 import math
 import sys
 
+Row = dict[str, str]
 raw, corrected, out = sys.argv[1:]
 
 
-def read(name):
+def read(name: str) -> dict[tuple[int, int, int], Row]:
     with open(name) as file:
         rows = [row for row in csv.DictReader(file) if row["frame"] == "ROVER"]
     return {(int(row["site"]), int(row["drive"]), int(row["pose"])): row for row in rows}
 
 
-def place(row):
+def place(row: Row) -> list[float]:
     return [float(row[f"landing_{axis}"]) for axis in "xyz"]
 
 
-def angles(row):
+def angles(row: Row) -> list[float]:
     return [math.radians(float(row[name])) for name in ("roll", "pitch", "yaw")]
 
 

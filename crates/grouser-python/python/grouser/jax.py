@@ -44,7 +44,7 @@ def settle(
     gravity_m_s2: Any = _core.EARTH_GRAVITY,
     model: str | None = None,
     vary: Mapping[str, Any] | None = None,
-) -> dict[str, Any]:
+) -> dict[str, jax.Array]:
     """Finds the sinkages at which the soil carries wheels, and the forces there, as
     `grouser.settle` does.
 
@@ -90,7 +90,7 @@ def settle(
     return {name: found[..., place] for place, name in enumerate(RESULTS)}
 
 
-def step(run: Run, commands: Any, dt_s: float, *, state: Any = None) -> Any:
+def step(run: Run, commands: Any, dt_s: float, *, state: Any = None) -> jax.Array:
     """The state of a rover after a control step, as `grouser.Run.step` makes it.
 
     The step is integrated within 1e-10, as `grouser.Run.linearise` does it: its derivatives are
@@ -150,7 +150,8 @@ def step(run: Run, commands: Any, dt_s: float, *, state: Any = None) -> Any:
     before = jnp.asarray(before, dtype=float)
     shapes = of.shapes(before, commands)
     parts = (jnp.broadcast_to(it, shape) for it, shape in zip((before, commands), shapes))
-    return _computed(of, jnp.concatenate(list(parts), axis=-1))
+    found: jax.Array = _computed(of, jnp.concatenate(list(parts), axis=-1))
+    return found
 
 
 @partial(jax.custom_jvp, nondiff_argnums=(0,))
