@@ -294,6 +294,164 @@ def test_what_does_not_go_with_varying_is_refused_by_name() -> None:
         gr.heading(rover="hakuto", steering="crab", vary={}, nominal=True)
 
 
+#: A wheel on sand.
+TOYOURA = {"soil": "toyoura", "wheel": "hakuto"}
+
+
+@pytest.mark.parametrize("outside", ["raise", "nan"])
+def test_wheels_without_a_whole_number_or_a_word_have_no_results(outside: Any) -> None:
+    counts = {"wheel.grousers.count": [8, 24, NAN]}
+    stand: dict[str, Any] = {"slip_ratio": 0.2, "outside": outside}
+    wheels = gr.settle("toyoura", "hakuto", load_n=17.0, vary=counts, **stand)
+    assert wheels.status.tolist() == [0, 0, 2] and np.isnan(wheels.torque_nm[2])
+    assert wheels.load_n.tolist() == [17.0] * 3
+    forces = gr.wheel_forces("toyoura", "hakuto", sinkage_mm=9.0, vary=counts, **stand)
+    assert np.isfinite(forces.torque_nm).tolist() == [True, True, False]
+    test = gr.wheel_test(load_n=17.0, vary=counts, **stand)
+    assert test.status.ravel().tolist() == ["ok", "ok", "an input is NaN"]
+    laws = {"soil.bulldozing.law": np.array([["sine"], [NAN]], dtype=object), **counts}
+    both = gr.settle("toyoura", "hakuto", load_n=17.0, vary=laws, **stand)
+    assert both.status.tolist() == [[0, 0, 2], [2, 2, 2]]
+    none = gr.settle("toyoura", "hakuto", load_n=17.0, vary={"wheel.grousers.count": []}, **stand)
+    assert none.shape == (0,)
+
+
+def test_whole_numbers_and_words_of_wheels_out_of_range_are_left_out() -> None:
+    counts = {"wheel.grousers.count": [-1, 16, NAN]}
+    stand: dict[str, Any] = {**TOYOURA, "load_n": 17.0, "slip_ratio": 0.2}
+    with pytest.raises(gr.ParameterError, match="count` is -1"):
+        gr.settle(**stand, vary=counts)
+    wheels = gr.settle(**stand, vary=counts, outside="nan")
+    assert wheels.status.tolist() == [3, 0, 2]
+    wheel = gr.Wheel("hakuto", grousers={"count": 16})
+    assert wheels.torque_nm[1] == gr.settle(**{**stand, "wheel": wheel}).torque_nm
+    test = gr.wheel_test(load_n=17.0, slip_ratio=0.2, vary=counts, outside="nan")
+    assert test.status.ravel()[0] == "a number is out of its range"
+    laws = {"soil.bulldozing.law": ["sine", "cosine"]}
+    steep = gr.settle(**stand, vary=laws, gradients="load_n", outside="nan").gradient
+    assert steep is not None and np.isfinite(steep["torque_nm"][:, 0]).tolist() == [True, False]
+    odd = {"soil.bulldozing.law": ["sine", "cosine"], "soil.cohesion_kpa": [-1.0, 0.5]}
+    assert gr.settle(**stand, vary=odd, outside="nan").status.tolist() == [3, 3]
+
+
+#: Values that are no arrays of one shape without masks and of one order of axes, and what is said.
+UNFIT: dict[str, tuple[dict[str, Any], str]] = {
+    "masked": (
+        {"soil.cohesion_kpa": np.ma.array([0.1, 0.2], mask=[False, True])},
+        "1 masked entry",
+    ),
+    "masked words": (
+        {"soil.model": np.ma.array(["rft", "bekker"], mask=[False, True])},
+        "1 masked entry",
+    ),
+    "ragged": ({"soil.cohesion_kpa": [[0.1], [0.1, 0.2]]}, "cohesion_kpa is ragged"),
+    "ragged words": ({"soil.model": [["rft"], ["rft", "bekker"]]}, "soil.model is ragged"),
+    "complex": ({"soil.cohesion_kpa": [1j]}, "must be real numbers"),
+    "shapes": (
+        {"soil.cohesion_kpa": [0.1, 0.2], "soil.friction_angle_deg": [30.0, 35.0, 38.0]},
+        r"shapes do not broadcast: .*cohesion_kpa \(2,\), .*friction_angle_deg \(3,\)",
+    ),
+    "shapes of words": (
+        {"soil.model": ["rft", "bekker"], "soil.bulldozing.law": ["sine", "none", "sign"]},
+        r"shapes do not broadcast: .*model \(2,\), .*law \(3,\)",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", [*STUDIES, "settle", "rollout"])
+def test_what_varies_is_checked_before_it_is_an_array(name: str) -> None:
+    stand: dict[str, Any] = {"load_n": 17.0, "slip_ratio": 0.2}
+    others: dict[str, Any] = {
+        "settle": lambda **keys: gr.settle("toyoura", "hakuto", **stand, **keys),
+        "rollout": lambda **keys: gr.rollout(duration_s=0.1, **keys),
+    }
+    call, keys = STUDIES[name] if name in STUDIES else (others[name], {})
+    for vary, said in UNFIT.values():
+        with pytest.raises(gr.ParameterError, match=said):
+            call(vary=vary, **keys)
+    xarray = pytest.importorskip("xarray")
+    across = {
+        "soil.cohesion_kpa": xarray.DataArray([0.1, 0.2], dims="a"),
+        "soil.model": xarray.DataArray(["rft", "bekker"], dims="b"),
+    }
+    with pytest.raises(gr.ParameterError, match="is a DataArray over a, soil.model one over b"):
+        call(vary=across, **keys)
+
+
+@pytest.mark.parametrize("study", [gr.heading, gr.card])
+def test_without_a_result_there_are_rows_and_a_status(study: Callable[..., Any]) -> None:
+    asked: dict[str, Any] = {"slope_deg": [5.0, 6.0], "samples": 3, "outside": "nan"}
+    none = study(**asked, vary={"soil.cohesion_kpa": [-1.0, NAN]})
+    assert none.shape == none.yaw_deg.shape == (2, 2) and np.isnan(none.yaw_deg).all()
+    assert "-1" in none.status[0, 1] and "NaN" in none.status[1, 0]
+    empty = study(**asked, vary={"soil.cohesion_kpa": []})
+    assert repr(empty) == "<Sweep of shape (0, 2): 0 of 0 ok>" and empty.status.shape == (0, 2)
+
+
+@pytest.mark.parametrize("name", STUDIES)
+def test_keys_and_names_that_are_not_there_are_errors_always(name: str) -> None:
+    call, keys = STUDIES[name]
+    wrong: dict[str, list[Any]] = {"soil.frictn": [1.0], "soil.law": ["sine"], "soil": ["sandd"]}
+    if name != "wheel_test":
+        wrong |= {"modell": ["rft"], "rover": ["hakutoo"], "rover.boddy": [{"mass_kg": 1.0}]}
+    for key, values in wrong.items():
+        with pytest.raises((gr.ParameterError, gr.DocumentNotFoundError), match="unknown key|is no"):
+            call(vary={key: values}, outside="nan", **keys)
+    if "samples" in keys:
+        with pytest.raises(gr.ParameterError, match="samples is 1"):
+            call(vary={"gravity_m_s2": [9.81]}, outside="nan", **{**keys, "samples": 1})
+
+
+@pytest.mark.parametrize("name", [it for it in STUDIES if it != "wheel_test"])
+def test_what_is_given_twice_or_empty_is_refused(name: str) -> None:
+    call, keys = STUDIES[name]
+    both = {"model": "bekker", "rover": "hakuto", "soil": "toyoura", "gravity_m_s2": 1.62}
+    for key, value in both.items():
+        with pytest.raises(gr.ParameterError, match=f"^{key} is given twice") as found:
+            call(vary={key: [value]}, **{key: value}, **keys)
+        assert found.value.name == key
+    for key in ("model", "rover", "soil"):
+        with pytest.raises(gr.ParameterError, match=f"^{key} is empty, it must be at least one"):
+            call(vary={key: []}, **keys)
+    with pytest.raises(gr.ParameterError, match="soil is given twice"):
+        gr.rollout(duration_s=0.1, soil="toyoura", vary={"soil": ["dry-sand"]})
+
+
+@pytest.mark.parametrize("nominal", [True, False])
+def test_a_part_and_what_is_in_it_vary_together(nominal: bool) -> None:
+    wheel = "rover.wheel_unit.wheel"
+    wheels = ["hakuto", gr.Wheel("hakuto", radius_m=0.12)]
+    vary = {wheel: wheels, f"{wheel}.grousers.count": [[8], [16]]}
+    asked: dict[str, Any] = {"slope_deg": [10.0], "nominal": nominal, "samples": 2}
+    found = gr.heading(vary={**vary, f"{wheel}.width_m": 0.07}, **asked)
+    last = gr.Wheel("hakuto", radius_m=0.12, width_m=0.07, grousers={"count": 16})
+    rover = gr.Rover("hakuto", wheel_unit={"wheel": last})
+    check_equal(found, (1, 1), gr.heading(rover=rover, **asked).columns)
+
+
+def test_soils_and_wheels_of_wheel_tests_vary() -> None:
+    stand: dict[str, Any] = {"load_n": [10.0, 20.0], "slip_ratio": [0.2, 0.3]}
+    wide = gr.Wheel("hakuto", width_m=0.12)
+    kinds = {"soil": [["toyoura"], ["dry-sand"]], "wheel": ["hakuto", wide]}
+    found = gr.wheel_test(vary={**kinds, "soil.cohesion_kpa": 0.3}, **stand)
+    assert found.shape == (2, 2, 2, 1, 2) and found.inputs["soil"].shape == (2, 1)
+    one = gr.wheel_test(gr.Soil("dry-sand", cohesion_kpa=0.3), wide, **stand)
+    check_equal(found, (1, 1), one._table())
+    for key, values in {"soil": ["dry-sand"], "wheel": [wide], "gravity_m_s2": [1.62]}.items():
+        with pytest.raises(gr.ParameterError, match=f"^{key} is given twice"):
+            gr.wheel_test(vary={key: values}, **{key: values[0]}, **stand)
+    laid: dict[str, Any] = {**TOYOURA, "load_n": 17.0, "slip_ratio": 0.2}
+    refused = {"soil": "given twice", "wheel": "given twice", "model": "vary soil.model"}
+    for key, said in refused.items():
+        with pytest.raises(gr.ParameterError, match=said):
+            gr.settle(vary={key: ["rft"]}, **laid)
+    with pytest.raises(gr.ParameterError, match=r"broadcast: soil \(2,\), model \(3,\)"):
+        soils = {**laid, "soil": ["toyoura", "dry-sand"]}
+        gr.settle(vary={"soil.model": ["rft", "rft", "bekker"]}, **soils)
+    with pytest.raises(gr.ParameterError, match="soil.model is given twice"):
+        gr.settle(vary={"soil.model": ["rft"]}, model="bekker", **laid)
+
+
 #: Calls that take one description at a time, with what they need.
 OTHERS: dict[str, tuple[Any, ...]] = {
     "simulate": (),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -45,7 +45,7 @@ def numbers(name: str, values: ArrayLike) -> Floats:
             None,
             "an array without names of dimensions",
         )
-    return _real(name, values)
+    return real(name, values)
 
 
 def line(name: str, values: ArrayLike) -> Floats:
@@ -56,8 +56,10 @@ def line(name: str, values: ArrayLike) -> Floats:
     return np.ascontiguousarray(np.atleast_1d(array))
 
 
-def varied(vary: Any, taken: Iterable[str] = ()) -> dict[str, ArrayLike]:
-    """Arrays by the keys of documents.
+def varied(
+    vary: Any, taken: Iterable[str] = (), also: Mapping[str, ArrayLike] | None = None
+) -> dict[str, ArrayLike]:
+    """Arrays by the keys of documents: without masked entries, and with labels that agree.
 
     Parameters
     ----------
@@ -65,9 +67,10 @@ def varied(vary: Any, taken: Iterable[str] = ()) -> dict[str, ArrayLike]:
         The caller's argument ``vary``.
     taken
         Keys that other arguments give.
+    also
+        Arrays of other arguments, which are with them.
     """
-    if vary is None:
-        return {}
+    vary = {} if vary is None else vary
     if not isinstance(vary, Mapping):
         raise ParameterError(
             f"vary is of type {type(vary).__name__}, it must be a mapping of keys to arrays", "vary"
@@ -78,7 +81,11 @@ def varied(vary: Any, taken: Iterable[str] = ()) -> dict[str, ArrayLike]:
             raise ParameterError(f"vary has a key of type {given}, it must be text", "vary")
         if name in taken:
             raise ParameterError(f"{name} is given twice: once of them in vary", name)
-    return dict(vary)
+    arrays = {**vary, **(also or {})}
+    for name, values in arrays.items():
+        _refuse_masked(name, values)
+    refuse_other_labels(arrays)
+    return arrays
 
 
 def mask(name: str, values: ArrayLike, count: int) -> NDArray[np.bool_]:
@@ -122,20 +129,25 @@ def broadcast(
     places
         Indices by the names of arguments.
     """
-    _refuse_other_labels(inputs)
-    given = {name: _real(name, values) for name, values in inputs.items()}
+    refuse_other_labels(inputs)
+    given = {name: real(name, values) for name, values in inputs.items()}
     arrays: dict[str, Any] = {**given, **places}
-    try:
-        whole = np.broadcast_arrays(*arrays.values())
-    except ValueError:
-        shapes = ", ".join(f"{name} {it.shape}" for name, it in arrays.items() if it.ndim)
-        raise ParameterError(f"shapes do not broadcast: {shapes}") from None
+    whole = together(arrays)
     shape = np.broadcast_shapes(*(array.shape for array in arrays.values()))
     flat = [np.ascontiguousarray(array).ravel() for array in whole]
     return Broadcast(given, dict(zip(given, flat)), flat[len(given) :], shape)
 
 
-def _real(name: str, values: ArrayLike) -> Floats:
+def together(arrays: Mapping[str, NDArray[Any]]) -> Sequence[NDArray[Any]]:
+    """Arrays at their common shape."""
+    try:
+        return np.broadcast_arrays(*arrays.values())
+    except ValueError:
+        shapes = ", ".join(f"{name} {it.shape}" for name, it in arrays.items() if it.ndim)
+        raise ParameterError(f"shapes do not broadcast: {shapes}") from None
+
+
+def real(name: str, values: ArrayLike) -> Floats:
     """Real numbers; the error for anything else names the expected type."""
     _refuse_masked(name, values)
     try:
@@ -204,7 +216,7 @@ def _refuse_other_index(inputs: Mapping[str, Any]) -> None:
             )
 
 
-def _refuse_other_labels(inputs: Mapping[str, Any]) -> None:
+def refuse_other_labels(inputs: Mapping[str, Any]) -> None:
     """Checks that labels agree: dimensions and coordinates of DataArrays, the index of Series."""
     _refuse_other_index(inputs)
     labelled = {name: it for name, it in inputs.items() if _dims(it)}

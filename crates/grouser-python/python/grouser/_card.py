@@ -226,8 +226,9 @@ def card(
         settings: dict[str, Any] = {"slope_deg": slopes, "samples": samples, "seed": seed}
         settings |= {"rim_speed_m_s": rim_speed_m_s, "uphill": uphill, "rule": rule}
         settings |= {"holds_heading": holds_heading, "accept_contradiction": accept_contradiction}
-        cards = of_each(asked, lambda run: card(run, **settings).columns)
-        return sweep_of(asked, cards, "card", ("yaw_deg",), {"slope_deg": slopes})
+        axes = {"slope_deg": slopes}
+        cards = of_each(asked, axes, lambda run: card(run, **settings).columns)
+        return sweep_of(asked, cards, "card", ("yaw_deg",), axes)
     run = scenario_of(scenario, changes)
     if uphill not in ("left", "right"):
         raise ParameterError(f"uphill {uphill!r}: it must be 'left' or 'right'", "uphill")

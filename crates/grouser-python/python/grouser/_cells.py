@@ -10,33 +10,44 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ._arrays import real, together
 from ._descriptions import _Description
-from ._errors import DocumentError, ParameterError
+from ._errors import DocumentError, DocumentNotFoundError, ParameterError
 
 _Document = TypeVar("_Document", bound=_Description)
+
+#: The end of the sentence about an entry without a number.
+IS_NAN = " is NaN"
 
 #: Things without a number, as an array.
 Cells = NDArray[np.object_]
 
 
-def cells_of(values: Any, description: _Description, key: str) -> Cells | None:
-    """Things as an array, and whole numbers where the document has one under a key; None for other
-    numbers."""
+def cells_of(values: Any, description: _Description, key: str, prefix: str = "") -> Cells | None:
+    """Things as an array, and whole numbers where the document has one under a key, but for its
+    prefix; None for other numbers."""
     found: Any = description._items
-    for part in key.split("."):
+    for part in key.removeprefix(prefix).split("."):
         found = found.get(part) if isinstance(found, dict) else None
     if isinstance(found, float):
         return None
-    array = as_array(values)
+    array = as_array(key, values)
     if array.dtype == object:
         return array
     is_whole = isinstance(found, int) and not isinstance(found, bool)
-    return number_cells(values) if is_whole else None
+    if array.size == 0 and not is_whole and (found is not None or key == "model"):
+        raise ParameterError(f"{key} is empty, it must be at least one", key, None, "at least one")
+    return number_cells(key, values) if is_whole else None
 
 
-def as_array(values: Any) -> NDArray[Any]:
+def as_array(name: str, values: Any) -> NDArray[Any]:
     """Numbers, or things as they are."""
-    array = np.asarray(values, dtype=object if _is_thing(values) else None)
+    try:
+        array = np.asarray(values, dtype=object if _is_thing(values) else None)
+    except ValueError:
+        array = np.array([values, None], dtype=object)
+    if array.dtype == object and any(isinstance(it, (list, tuple)) for it in array.flat):
+        raise ParameterError(f"{name} is ragged, it must be an array", name)
     return array.astype(object) if array.dtype.kind in "USb" else array
 
 
@@ -46,8 +57,9 @@ def _is_thing(values: Any) -> bool:
     return isinstance(values, (str, bool, Mapping, os.PathLike, _Description))
 
 
-def number_cells(values: Any) -> Cells:
+def number_cells(name: str, values: Any) -> Cells:
     """Numbers as things: each by itself, whole ones as such."""
+    real(name, values)
     cells = np.empty(np.shape(values), dtype=object)
     for place, it in np.ndenumerate(np.asarray(values)):
         cells[place] = int(it) if float(it).is_integer() else float(it)
@@ -97,10 +109,11 @@ def documents_of(
     cells
         What stands under keys, at shapes that broadcast with that.
     outside_is_nan
-        Whether what is not allowed is no error.
+        Whether what is out of range, or does not go together, is no error; keys and documents that
+        are not there always are.
     """
     each = [(list(bases), base_of), *(_different(it) for it in cells.values())]
-    whole = np.broadcast_arrays(*(places for _, places in each))
+    whole = together(dict(zip((bases[0]._kind, *cells), (places for _, places in each))))
     rows = np.stack([it.ravel() for it in whole], axis=-1)
     different, index = np.unique(rows, axis=0, return_inverse=True)
     made: list[_Document] = []
@@ -111,28 +124,30 @@ def documents_of(
         missing = [name for name, it in keys.items() if isinstance(it, float) and np.isnan(it)]
         made.append(things[0])
         if missing:
-            problems[number] = f"{missing[0]} is NaN"
+            problems[number] = missing[0] + IS_NAN
             continue
         try:
             made[-1] = _with(things[0], keys)
         except (ParameterError, DocumentError) as error:
-            if not outside_is_nan:
+            # What is not there at all is a mistake, whatever the number.
+            is_unknown = isinstance(error, DocumentNotFoundError) or "unknown key `" in str(error)
+            if is_unknown or not outside_is_nan:
                 raise
             problems[number] = str(error)
-    return made, index.reshape(whole[0].shape).astype(np.int64), problems
+    return made or list(bases), index.reshape(whole[0].shape).astype(np.int64), problems
 
 
 def _with(document: _Document, keys: Mapping[str, Any]) -> _Document:
     """A document with other things under some keys: parts as a whole first, then what is in them."""
-    parts = {name: it for name, it in keys.items() if "." not in name}
-    inner: dict[str, Any] = {}
+    steps: dict[int, dict[str, Any]] = {}
     for name, it in keys.items():
         *tables, key = name.split(".")
-        table = inner
+        # How many of the other keys are of parts that this one is in.
+        depth = sum(name.startswith(f"{other}.") for other in keys)
+        table = steps.setdefault(depth, {})
         for part in tables:
             table = table.setdefault(part, {})
-        if tables:
-            table[key] = it
-    for changes in (parts, inner):
-        document = type(document)(document, **changes) if changes else document
+        table[key] = it
+    for _, changes in sorted(steps.items()):
+        document = type(document)(document, **changes)
     return document

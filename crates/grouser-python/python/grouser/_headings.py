@@ -325,7 +325,7 @@ def heading(
             swept = _core.heading_sweep(asked.native, slopes, steering)
         else:
             settings = {"slope_deg": slopes, "samples": samples, "seed": seed, "rule": rule}
-            swept = of_each(asked, lambda run: _rows_of(heading(run, **settings)))
+            swept = of_each(asked, axes, lambda run: _rows_of(heading(run, **settings)))
         return sweep_of(asked, swept, "heading", (*_HELD, "limit_slope_deg"), axes)
     changes = changes if model is None else {**changes, "model": model}
     slopes, run = line("slope_deg", slope_deg), scenario_of(scenario, changes)
@@ -539,7 +539,7 @@ def heading_map(
         settings: dict[str, Any] = {"slope_deg": slopes, "course_deg": courses, "seed": seed}
         settings |= {"rim_speed_m_s": speed, "uncertainty": True, "samples": samples}
         if uncertainty:
-            swept = of_each(asked, lambda run: heading_map(run, **settings)._table())
+            swept = of_each(asked, axes, lambda run: heading_map(run, **settings)._table())
         else:
             swept = _core.heading_map_sweep(asked.native, slopes, courses, speed)[:1]
         names = (*_tables.COLUMNS["heading"], "limit_slope_deg")

@@ -391,7 +391,8 @@ def _sweep(
         return {name: [row.get(name) for row in rows] for name in rows[0]}
 
     if samples is not None:
-        return sweep_of(asked, of_each(asked, ends), "mission", _tables.COLUMNS["mission"], axes)
+        swept = of_each(asked, axes, ends)
+        return sweep_of(asked, swept, "mission", _tables.COLUMNS["mission"], axes)
     each = (it for plan in plans for it in (plan, *plan.get("alternative", ())))
     most = max((len(it.get("leg", ())) for it in each), default=0)
     swept = _core.mission_sweep(asked.native, max(len(names), 1), most)

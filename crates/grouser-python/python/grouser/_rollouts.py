@@ -235,7 +235,7 @@ def rollout(
     }
     arguments = {name: it for name, it in own.items() if it is not None}
     both = [*arguments, *(_KEYS[name] for name in arguments if name in _KEYS)]
-    given = {**varied(vary, taken=both), **arguments}
+    given = varied(vary, both if soil is None else [*both, "soil"], arguments)
     cells = {name: cells_of(it, runs[0], name) for name, it in given.items()}
     things = {name: it for name, it in cells.items() if it is not None}
     problems: dict[int, str] = {}

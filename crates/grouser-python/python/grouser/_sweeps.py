@@ -128,13 +128,13 @@ def entered(
     is_nan, own = outside_is_nan(outside), dict(changes)
     is_several = {name: isinstance(it, (list, tuple, np.ndarray)) for name, it in own.items()}
     several = {name: own.pop(name) for name in ("soil", "rover") if is_several.get(name)}
-    given = {**varied(vary, taken=(*taken, *several)), **several}
+    given = varied(vary, (*taken, *changes), several)
     document = source if isinstance(source, base) and not own else base(source, **own)
     cells = {}
     for name, values in given.items():
         found = cells_of(values, document, name)
         if found is None and by_document:
-            found = number_cells(values)
+            found = number_cells(name, values)
         if found is not None:
             cells[name] = found
     labels = {name: labels_of(it) for name, it in cells.items()}
@@ -161,22 +161,30 @@ def entered(
     return Entered(documents, problems, native, asked.shape, {**labels, **asked.given})
 
 
-def of_each(asked: Entered, study: Callable[[Any], Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """The table of all entries, by a study of one document after the other."""
+#: Arguments of studies: what is wrong with them is wrong with no entry.
+_ARGUMENTS = ("slope_deg", "course_deg", "samples", "seed", "rule", "uphill", "rim_speed_m_s")
+
+
+def of_each(
+    asked: Entered, axes: Mapping[str, Any], study: Callable[[Any], Mapping[str, Any]]
+) -> list[dict[str, Any]]:
+    """The table of all entries, by a study of one document after the other, with its own axes."""
     why, tables = dict(asked.problems), {}
+    rows = int(np.prod([len(it) for it in axes.values()]))
     places = asked.native[1].tolist()
     for number in sorted({*places} - {*why}):
         try:
             table = study(asked.documents[number])
             tables[number] = {name: np.ravel(np.asarray(it)) for name, it in table.items()}
-            tables[number].setdefault("status", np.array(["ok"], object).repeat(_rows(table)))
-        except (ParameterError, SimulationError) as error:
-            if isinstance(error, ParameterError) and not asked.native[-2]:
+            tables[number].setdefault("status", np.full(rows, "ok", object))
+        except ParameterError as error:
+            if error.name in _ARGUMENTS or not asked.native[-2]:
                 raise
             why[number] = str(error)
-    rows = max((len(table["status"]) for table in tables.values()), default=1)
+        except SimulationError as error:
+            why[number] = str(error)
     tables |= {number: {"status": np.full(rows, it, object)} for number, it in why.items()}
-    names = dict.fromkeys(name for table in tables.values() for name in table)
+    names = dict.fromkeys(["status", *(name for table in tables.values() for name in table)])
     columns = {}
     for name in names:
         is_number = any(table[name].dtype.kind in "fiu" for table in tables.values() if name in table)
@@ -185,10 +193,6 @@ def of_each(asked: Entered, study: Callable[[Any], Mapping[str, Any]]) -> list[d
         cells = [each[number] for number in places] or [nothing[:0]]
         columns[name] = np.concatenate(cells).astype(float if is_number else object)
     return [columns]
-
-
-def _rows(table: Mapping[str, Any]) -> int:
-    return int(np.size(next(iter(table.values()))))
 
 
 def sweep_of(

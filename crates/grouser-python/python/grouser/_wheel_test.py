@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _tables
-from ._arrays import Floats, line, number, varied, whole_number
+from ._arrays import Floats, line, number, together, varied, whole_number
 from ._cells import as_array
 from ._descriptions import Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+#: The usual soil and wheel, by which it is known whether others are given.
+_SOIL, _WHEEL = "toyoura", "hakuto"
 #: The settings of a test stand, and the number of the trial.
 _COORDS = ("load_n", "slip_angle_deg", "slip_ratio", "trial")
 
@@ -347,8 +349,8 @@ def wheel_test(
 
 
 def wheel_test(
-    soil: Soils = "toyoura",
-    wheel: Wheels = "hakuto",
+    soil: Soils = _SOIL,
+    wheel: Wheels = _WHEEL,
     *,
     load_n: ArrayLike,
     slip_ratio: ArrayLike,
@@ -394,8 +396,8 @@ def wheel_test(
         Seed of the noise or of the samples: the same seed gives the same readings, or the same
         soils and models.
     vary, outside
-        As for `settle`: what varies broadcasts with ``soil`` and ``wheel``, and loads, slip angles and
-        slip ratios are the axes of the `Sweep`. Not with ``trials`` and ``uncertainty``.
+        As for `settle`, and ``soil`` and ``wheel`` may vary, too: what varies broadcasts with those,
+        and loads, slip angles and slip ratios are the axes of the `Sweep`. Not with ``trials`` and ``uncertainty``.
 
     Returns
     -------
@@ -499,22 +501,28 @@ def _sweep(
     outside: Outside,
 ) -> Sweep:
     """Wheel tests over what varies, whose axes stand before those of the test."""
-
-    def ahead(values: Any) -> Any:
-        return as_array(values)[..., None, None, None]
-
+    usual = {"soil": _SOIL, "wheel": _WHEEL, "gravity_m_s2": _core.EARTH_GRAVITY}
+    own: dict[str, Any] = {"soil": soil, "wheel": wheel, "gravity_m_s2": gravity_m_s2}
+    taken = [name for name, it in own.items() if it is not usual[name]]
+    own |= varied(vary, (*axes, *taken))
     several = (list, tuple, np.ndarray)
-    stand: list[Any] = [ahead(it) if isinstance(it, several) else it for it in (soil, wheel)]
+    arrays = {
+        name: as_array(name, it)
+        for name, it in own.items()
+        if name in vary or isinstance(it, several)
+    }
+    together(arrays)
+    own |= {name: it[..., None, None, None] for name, it in arrays.items()}
     loads, angles, ratios = axes.values()
-    varying = {name: ahead(it) for name, it in varied(vary, taken=axes).items()}
     wheels = settle(
-        *stand,
+        own.pop("soil"),
+        own.pop("wheel"),
         load_n=loads[:, None, None],
         slip_angle_deg=angles[:, None],
         slip_ratio=ratios,
-        gravity_m_s2=varying.pop("gravity_m_s2", gravity_m_s2),
+        gravity_m_s2=own.pop("gravity_m_s2"),
         model=model,
-        vary=varying,
+        vary=own,
         outside=outside,
     )
     inputs = {name: it for name, it in wheels.inputs.items() if name not in axes}

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core, _shown, _tables
-from ._arrays import Broadcast, Floats, broadcast, number, varied
-from ._cells import cells_of, documents_of, labels_of, numbered
+from ._arrays import Broadcast, Floats, broadcast, number, refuse_other_labels, varied
+from ._cells import IS_NAN, cells_of, documents_of, labels_of, numbered
 from ._descriptions import Rover, Scenario, Soil, Source, Wheel
 from ._errors import ParameterError
 from ._gradients import Gradient, Keys, keys_of, of_rows
@@ -340,7 +340,13 @@ class _Stand:
         outside: Outside,
     ) -> None:
         self._outside_is_nan = outside_is_nan(outside)
-        self._vary = varied(vary, taken=("gravity_m_s2",))
+        taken = () if model is None else ("soil.model",)
+        self._vary = varied(vary, ("soil", "wheel", "gravity_m_s2", *taken))
+        if "model" in self._vary:
+            raise ParameterError("model does not vary here: vary soil.model", "model")
+        self._given = dict(self._vary)
+        #: What becomes of wheels on soils, or of wheels, that are none.
+        self._none: dict[str, NDArray[np.int8]] = {}
         gravity = gravity_m_s2
         if np.ndim(gravity_m_s2) > 0 or self._outside_is_nan:
             self._vary["gravity_m_s2"], gravity = gravity_m_s2, _core.EARTH_GRAVITY
@@ -357,22 +363,25 @@ class _Stand:
         """Soils or wheels with what varies of them that is no number, taken from ``vary``."""
         cells = {}
         for name in [name for name in self._vary if name.startswith(prefix)]:
-            key = name[len(prefix) :]
-            found = cells_of(self._vary[name], things[0], key)
+            found = cells_of(self._vary[name], things[0], name, prefix)
             if found is not None:
-                cells[key] = found
+                cells[name.removeprefix(prefix)] = found
                 self._names[name] = labels_of(found)
                 del self._vary[name]
         if not cells:
             return things, places
-        made, places, _ = documents_of(things, places, cells, outside_is_nan=False)
+        made, places, problems = documents_of(things, places, cells, self._outside_is_nan)
+        if problems:
+            self._none[prefix] = np.full(len(made), CARRIED, dtype=np.int8)
+        for number, why in problems.items():
+            self._none[prefix][number] = INPUT_IS_NAN if why.endswith(IS_NAN) else OUTSIDE
         return made, places
 
     def found(self, native: Any, inputs: Mapping[str, ArrayLike]) -> dict[str, Any]:
         """Results and inputs by name, as arrays of the common shape."""
         asked, indices = self._asked(inputs)
         vary = {name: asked.flat[name] for name in self._vary}
-        numbers = (asked.flat[name] for name in inputs)
+        numbers = self._numbers(asked, inputs)
         soils = [it._document for it in self._soils]
         wheels = [it._document for it in self._wheels]
         rows, names = native(
@@ -388,7 +397,7 @@ class _Stand:
             raise ParameterError("gradients go with one wheel, wheel is several", "gradients")
         asked, indices = self._asked(inputs)
         vary = {name: asked.flat[name] for name in self._vary}
-        numbers = (asked.flat[name] for name in inputs)
+        numbers = self._numbers(asked, inputs)
         native: Any = _core.settle_gradients
         soils, wheel = [it._document for it in self._soils], self._wheels[0]._document
         rows, one_sided, keys, names = native(
@@ -400,10 +409,25 @@ class _Stand:
         """Whether a number of each wheel is NaN."""
         asked, _ = self._asked(inputs)
         numbers = (np.asarray(asked.flat[name]) for name in (*self._vary, *inputs))
-        missing = np.logical_or.reduce([np.isnan(it) for it in numbers])
-        return np.broadcast_to(missing.ravel(), int(np.prod(asked.shape))).reshape(asked.shape)
+        each = [np.isnan(it) for it in numbers]
+        each += [it == INPUT_IS_NAN for it in self._left_out(asked)]
+        missing: NDArray[np.bool_] = np.logical_or.reduce(each)
+        return missing.reshape(asked.shape)
+
+    def _left_out(self, asked: Broadcast) -> list[NDArray[np.int8]]:
+        """What becomes of each wheel by its soil and by itself, where some are none."""
+        places = zip(("soil.", "wheel."), asked.places)
+        return [self._none[kind][it] for kind, it in places if kind in self._none]
+
+    def _numbers(self, asked: Broadcast, inputs: Mapping[str, ArrayLike]) -> list[Floats]:
+        """The inputs of each wheel: NaN where there is no soil or wheel."""
+        first, *others = (asked.flat[name] for name in inputs)
+        for left_out in self._left_out(asked):
+            first = np.where(left_out, np.nan, first)
+        return [first, *others]
 
     def _asked(self, inputs: Mapping[str, ArrayLike]) -> tuple[Broadcast, list[Any]]:
+        refuse_other_labels({**self._given, **inputs})
         asked = broadcast({**self._vary, **inputs}, self._places)
         counts = (len(self._soils), len(self._wheels))
         indices = [it if count > 1 else None for it, count in zip(asked.places, counts)]
