@@ -142,14 +142,16 @@ pub(super) struct Memory {
 stored!(struct Memory { scale, inverse, with_motors, checked });
 
 /// From velocities this near to those of the steady state one more step leads to it, unlooked at,
-/// over the fastest rim's speed [-]: forces and powers are those of a slip ratio as near. Source:
-/// ours, a tenth of what parabolas through steady states may miss.
+/// over the fastest rim's speed [-]: velocities are found to some 3e-7, while forces and powers are
+/// those of slip ratios that are off by so much, within 1e-4 of their size. Source: ours, a tenth of
+/// what parabolas through steady states may miss.
 pub(super) const CLOSE: f64 = 1e-6;
 /// What forces may miss where a step of a search leads, over the square of the step's size over the
 /// fastest rim's speed [-]: the next step is longer than that. Source: measured; steps of a rover
 /// whose speeds change at random by 30 % take as many evaluations.
 const MISSED_OF_STEP: f64 = 0.1;
-/// What forces have that are taken for those of the steady state miss at the most [-].
+/// What forces that are taken for those of the steady state miss at the most where they are smooth
+/// [-].
 const MOST_MISSED: f64 = 1e-8;
 /// Steps longer than this leave the neighbourhood in which a tangent tells anything, over the
 /// fastest rim's speed [-].

@@ -269,7 +269,7 @@ def heading(
         with ``gradients``.
     outside : {"raise", "nan"}
         With ``"nan"`` an entry of ``vary`` with a number out of its range (`range_of`), or with what
-        does not go together, is NaN with a `Sweep.status`; by default it is an error.
+        does not go together, is NaN with a ``status``; by default it is an error.
     **changes
         Keys of the scenario with other values.
 

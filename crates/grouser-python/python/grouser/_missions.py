@@ -307,7 +307,7 @@ def mission(
     vary, outside
         As for `heading`, by the keys of the mission, such as ``leg.0.drive_m``: only the ends of
         missions and, as ``legs``, of their legs are kept. One that cannot be computed has a
-        `Sweep.status`, and the others continue. With ``samples`` each entry is computed by itself, with
+        ``status``, and the others continue. With ``samples`` each entry is computed by itself, with
         its risk.
     **changes
         Keys of the mission with other values: ``slope_deg=15.0``, ``stop={…}``.
