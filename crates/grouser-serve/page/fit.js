@@ -25,7 +25,11 @@ export class FitAnswer extends StudyAnswer {
       hint: "The fit starts when you ask for it: least squares alone take seconds, a posterior takes minutes.",
       none: "no soil is fitted yet",
       failed: "no fit",
-    }, ended, started);
+    }, (error) => {
+      // One that failed is shown in place of every other.
+      if (error) fits.mark(undefined);
+      ended(error);
+    }, started);
     this.trials = new Trials(changed);
     this.fits = fits;
     fits.show = (made) => {
@@ -50,7 +54,9 @@ export class FitAnswer extends StudyAnswer {
     super.ask(session);
     // What was fitted before needs no search.
     const made = this.fits.of(JSON.stringify(this.question(session)));
-    if (made) this.show(made);
+    if (!made) return;
+    this.show(made);
+    this.ended(undefined);
   }
 
   /** @override */

@@ -218,11 +218,11 @@ export class HandDrive extends DriveAnswer {
     else this.seenAnew();
   }
 
-  /** Has the scene where the rover is, without a key that drives it. */
+  /** Has the scene where the rover is: of a step that is none of the drive. */
   async seenAnew() {
     if (this.isScene && !this.isGoing && !this.run?.outcome) {
       this.isGoing = true;
-      await this.step(LEAST, true);
+      await this.step(LEAST, true, (line) => this.takeScene(line));
       this.isGoing = false;
     }
     this.answered(undefined);
@@ -304,9 +304,10 @@ export class HandDrive extends DriveAnswer {
    * One step of the engine.
    * @param {number} span [s]
    * @param {boolean} hasScene
+   * @param {(line: any) => void} take
    * @returns {Promise<Error | null | undefined>} what went wrong; null after the first step
    */
-  async step(span, hasScene) {
+  async step(span, hasScene, take = (line) => this.takeStep(line)) {
     const { signal } = this.steps;
     const isFirst = !this.state;
     const question = {
@@ -314,7 +315,7 @@ export class HandDrive extends DriveAnswer {
     };
     try {
       await ask("drive-step", question, signal, (line) => {
-        if (!signal.aborted) this.takeStep(line);
+        if (!signal.aborted) take(line);
       });
       return signal.aborted ? undefined : isFirst ? null : undefined;
     } catch (error) {
@@ -338,10 +339,7 @@ export class HandDrive extends DriveAnswer {
     }
     if (samples.length > MOST) this.run.samples = samples.filter((/** @type {any} */ _, /** @type {number} */ at) => at % 2 === 0 || at === samples.length - 1);
     this.run = { ...this.run, outcome: line.outcome, reason: line.reason, flags: line.flags, simulation: line.simulation, final: this.run.samples.at(-1) };
-    if (line.scene && this.isScene) {
-      this.middle = [this.run.final.x_m, this.run.final.y_m];
-      this.scene.take(line.scene);
-    }
+    this.takeScene(line);
     const last = this.run.samples.length - 1;
     this.time.setAttribute("max", String(last));
     this.way();
@@ -349,6 +347,13 @@ export class HandDrive extends DriveAnswer {
     if (isFollowed || isFirst) this.show(last);
     this.outcome.classList.remove("stale");
     this.outcome.replaceChildren(...this.became(this.run));
+  }
+
+  /** @param {any} line of a step */
+  takeScene(line) {
+    if (!line.scene || !this.isScene) return;
+    this.middle = [this.run.final.x_m, this.run.final.y_m];
+    this.scene.take(line.scene);
   }
 
   /** The way of the centre of mass so far; on a plane it is drawn on the ground. */

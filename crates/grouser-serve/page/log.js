@@ -53,8 +53,8 @@ export class LogAnswer extends StudyAnswer {
     this.from = field("from");
     this.to = field("to");
     this.list = element("select", { id: "part-of", onchange: () => {
-      const [from, to] = String(/** @type {any} */ (this.list).value).split(" ").map(Number);
-      if (to !== undefined) this.choose(from ?? 0, to);
+      const [from, to] = String(/** @type {any} */ (this.list).value).split(" ");
+      if (to) this.choose(from ? Number(from) : undefined, Number(to));
     } });
     this.why = element("div", { id: "why-part", "aria-live": "polite" });
     this.time = element("input", { type: "range", id: "stretch", min: 0, max: 0, step: 1, value: 0, "aria-label": "Time, in stretches of the log", oninput: () => this.show(Number(/** @type {any} */ (this.time).value)) });
@@ -146,32 +146,34 @@ export class LogAnswer extends StudyAnswer {
     return all.filter((numbers) => numbers.every((it) => typeof it === "number"));
   }
 
-  /** Parts of the log with as many stretches each. */
+  /** Parts of the log with as many stretches each. The first begins where the log does, which no stretch says. */
   offerParts() {
     const times = this.rows.map((row) => row["time_s"]);
-    const ends = [0, ...Array.from({ length: PARTS }, (_, place) => Math.ceil((place + 1) * times.length / PARTS) - 1)].map((place) => times[place]);
-    const parts = ends.slice(1).map((to, place) => [ends[place], to]).filter(([from, to]) => to > from);
-    this.list.replaceChildren(element("option", { value: "" }, ["choose …"]), ...parts.map(([from, to]) => element("option", { value: `${from} ${to}` }, [`${four(from)} to ${four(to)} s`])));
+    const ends = Array.from({ length: PARTS }, (_, place) => times[Math.ceil((place + 1) * times.length / PARTS) - 1]);
+    const parts = ends.map((to, place) => [ends[place - 1], to]).filter(([from = -Infinity, to]) => to > from);
+    this.list.replaceChildren(element("option", { value: "" }, ["choose …"]), ...parts.map(([from, to]) => element("option", { value: `${from ?? ""} ${to}` }, [`${from === undefined ? "start" : four(from)} to ${four(to)} s`])));
   }
 
   /**
    * Takes a part of the log, and asks what it points to.
-   * @param {number} from [s]
+   * @param {number | undefined} from [s], where it is not the log's own beginning
    * @param {number} to [s]
    */
   choose(from, to) {
-    for (const [field, time] of /** @type {[any, number][]} */ ([[this.from, from], [this.to, to]])) field.value = String(Number(time.toFixed(3)));
+    for (const [field, time] of /** @type {[any, number | undefined][]} */ ([[this.from, from], [this.to, to]])) field.value = time === undefined ? "" : String(Number(time.toFixed(3)));
     this.explain();
   }
 
   /** Asks what the part of the fields points to. */
   explain() {
-    const [from, to] = [this.from, this.to].map((it) => Number(/** @type {any} */ (it).value || NaN));
-    if (!this.session || !Number.isFinite(from) || !Number.isFinite(to)) {
-      this.why.replaceChildren(element("p", { class: "error" }, ["Write both ends of the part, in seconds."]));
+    const fields = /** @type {HTMLInputElement[]} */ ([this.from, this.to]);
+    // An end that is left empty is that of the log.
+    const [from, to] = fields.map(({ value }) => value ? Number(value) : undefined);
+    if (!this.session || (from ?? to) === undefined || fields.some((it) => it.validity.badInput)) {
+      this.why.replaceChildren(element("p", { class: "error" }, ["Write both ends of the part, in seconds, or one of them."]));
       return;
     }
-    for (const { mark } of this.charts) mark(from ?? 0, to ?? 0);
+    for (const { mark } of this.charts) mark(from ?? -Infinity, to ?? Infinity);
     this.why.classList.add("stale");
     const [name, { samples: _, slide: __, figures: ___, ...question }] = /** @type {[string, any]} */ (this.question(this.session));
     /** @type {any} */

@@ -185,7 +185,7 @@ function begin() {
     }
   }
   if (session.view === "campaigns") {
-    asking.ask("campaign-task", aboutCampaign({ ...session, runs: 0 }), (line) => {
+    asking.ask("campaign-task", aboutCampaign({ ...session, runs: 0, set: {} }), (line) => {
       sliders = [];
       campaigns = new CampaignAnswer(ended, begun);
       place.replaceChildren(element("h2", {}, ["Start one"]), ...intoFolder(line.runs ?? 0), ...(line.keys ?? []).map(ofKey));
@@ -197,7 +197,8 @@ function begin() {
     return;
   }
   if (session.view === "design") {
-    asking.ask("design-task", aboutDesign(session), (line) => {
+    // Its fields are those of its document: numbers that are refused have theirs, too.
+    asking.ask("design-task", aboutDesign({ ...session, set: {} }), (line) => {
       sliders = [];
       place.replaceChildren(element("h2", {}, ["Move"]), ...namedKeys(line.keys ?? [], line.measures ?? []).map(ofKey), bounds(line.free ?? []), ...trades(line.measures ?? []));
       design = new DesignAnswer(ended, begun);
@@ -221,11 +222,14 @@ function begin() {
     const names = line.names ?? {};
     sliders = [];
     if (isFit) {
+      const focused = document.activeElement?.id;
       fit = new FitAnswer(ended, begun, moved, fits);
       place.replaceChildren(
         element("h2", {}, ["Fit"]), ...partsOf(session, dataSets.find(({ name }) => name === session.data), takeData), ...choicesOfFit(session, keys, moved), group(`Start: ${names["soil"]}`, of("soil"), false),
       );
       answer.replaceChildren(fit.element);
+      // A button of a fit that was taken up is in another place now.
+      if (focused) byId(focused)?.focus();
     } else if (isWheel) {
       place.replaceChildren(
         element("h2", {}, ["Move"]),
