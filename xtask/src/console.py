@@ -708,7 +708,7 @@ def use_design(looks, browser, server):
     wrong.wait_for()
     kept = end.input_value()
     end.fill(usual)
-    page.wait_for_function("!document.querySelector('#bounds .error:not(:empty)')")
+    page.wait_for_selector("#bounds .error:not(:empty)", state="detached")
     looks.claim("what is refused has its field after another view, too", [] if kept == "0.01" else [f"it has {kept}"])
     looks.claim("the keyboard reaches everything about a design", unreached(page))
     looks.claim("nothing goes wrong about a design", [it for it in flaws if "422" not in it])
