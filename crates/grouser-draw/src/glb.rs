@@ -47,7 +47,7 @@ impl Animation {
         let input = file.numbers("SCALAR", &seconds, true, None);
         let pictures: Vec<f64> = self.times.iter().map(|time| time / self.speed).collect();
         let pictures = file.numbers("SCALAR", &pictures, true, None);
-        // Of rovers beside each other all arrows have one scale.
+        // Arrows of rovers beside each other have one scale.
         let scales = self.actors.iter().map(Actor::newtons_per_metre);
         let newtons_per_metre = scales.fold(0.0, f64::max);
         let mut below = vec![self.ground(&mut file)];

@@ -154,7 +154,7 @@ fn a_scene_in_three_dimensions_is_valid_gltf() {
         }
         paths.push((path.to_owned(), channel["target"]["node"].clone(), values));
     }
-    // Of the rover, of four wheels and of their arrows; tracks appear by their size.
+    // The rover, four wheels and their arrows move; tracks appear by their size.
     let count = |path: &str| paths.iter().filter(|(other, ..)| other == path).count();
     assert_eq!((count("translation"), count("rotation")), (9, 9));
     assert!(count("scale") > 7);

@@ -131,6 +131,7 @@ impl OnGround<'_> {
     /// fails.
     ///
     /// * `near`: of a motion nearby, and of this one afterwards
+    /// * `accuracy`: of the forces
     pub(super) fn settle_together(
         &self,
         stance: &Stance,

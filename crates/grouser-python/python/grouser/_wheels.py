@@ -345,7 +345,7 @@ class _Stand:
         if "model" in self._vary:
             raise ParameterError("model does not vary here: vary soil.model", "model")
         self._given = dict(self._vary)
-        #: What becomes of wheels on soils, or of wheels, that are none.
+        #: The status of entries whose soil or wheel is invalid.
         self._none: dict[str, NDArray[np.int8]] = {}
         gravity = gravity_m_s2
         if np.ndim(gravity_m_s2) > 0 or self._outside_is_nan:

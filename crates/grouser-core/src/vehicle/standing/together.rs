@@ -72,7 +72,7 @@ enum Unfound {
 
 impl Sought<'_> {
     /// What is known of wheels that were settled in another way, for the next search; none where
-    /// that is none of its usual cases.
+    /// that search does not apply.
     pub(super) fn known_of(&self, wheels: &[WheelReaction]) -> Option<KnownStanding> {
         let ground = self.ground;
         let of = |wheels: &[WheelReaction]| -> Vec<Option<Known>> {

@@ -40,7 +40,7 @@ pub const ESTIMATE: &str = "estimate";
 pub const DEVIATION: &str = "deviation";
 /// How much of the differences a cause explains.
 pub const SHARE: &str = "share";
-/// The same of a cause as the only one.
+/// Column of what a cause explains if it is the only one.
 pub const SHARE_ALONE: &str = "share_alone";
 /// Where the part of a log begins that is replayed, and where it ends.
 pub const FROM: Quantity = quantity("from_s", S);

@@ -160,10 +160,10 @@ pub struct Judgement {
 pub struct Shortfall {
     /// The slip ratio that is acceptable [-].
     pub slip_ratio: f64,
-    /// Of a caution the least share of the samples that hold, of a no-go the share of those that do
-    /// not from which on it is one [-].
+    /// Share of the samples that decides [-]: the least that must hold for a go, and from which on
+    /// those that do not hold make a no-go.
     pub limit: f64,
-    /// That share; `None` where it is said of several places [-].
+    /// Share that there is [-]; `None` where the sentence is about several places.
     pub share: Option<f64>,
 }
 
@@ -196,7 +196,8 @@ impl Judgement {
         if other.verdict > self.verdict { other } else { self }
     }
 
-    /// The same said of several places, as of all steeper slopes: without the share of one of them.
+    /// This judgement for several places, such as all steeper slopes: without the share of one of
+    /// them.
     #[must_use]
     pub fn of_several(self) -> Self {
         let shortfall = self.shortfall.map(|it| Shortfall { share: None, ..it });
