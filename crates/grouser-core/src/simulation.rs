@@ -26,6 +26,7 @@ mod point;
 pub mod power;
 pub mod quasi_steady;
 mod record;
+mod recorded;
 pub mod run;
 pub mod scatter;
 pub mod scenario;

@@ -190,7 +190,7 @@ def over_hills(simulation: str, actions: np.ndarray) -> float:
     base = gr.Scenario(simulation=simulation, terrain=site)
     scenarios = [base.replace(terrain={"start_m": place}) for place in starts.tolist()]
     batch = gr.RunBatch(scenarios, commands="rim_speed_m_s")
-    sides = np.array([-1.0, 1.0, 1.0, -1.0])
+    sides = np.array([-1.0 if it["position_m"][1] > 0.0 else 1.0 for it in base.rover.mount])
     start = time.perf_counter()
     for action in actions:
         batch.step(0.1 * (action[:, :1] + action[:, 1:] * sides), ACTION_S)

@@ -32,7 +32,7 @@ use super::stress::{Response, StressLaw};
 /// assert_eq!(format!("{:.1} N", relation.normal_force(mm(10.0))), "10.2 N");
 /// assert_eq!(format!("{:.1} N", relation.normal_force(mm(20.0))), "46.4 N");
 /// ```
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct LoadSinkage {
     views: Views,
     /// r_s b [m²].
@@ -45,10 +45,10 @@ pub struct LoadSinkage {
 pub(super) type Finish = fn(&Contact, &Reaction, f64) -> WheelForces;
 
 /// Which ends of the wheel enter the soil, with their shares ([`super::mirror::from_both_sides`]).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum Views {
     One(Side, Arc),
-    Both { front: (Arc, f64), back: (Arc, f64) },
+    Both(Box<[(Arc, f64); 2]>),
 }
 
 impl LoadSinkage {
@@ -62,7 +62,7 @@ impl LoadSinkage {
         } else if front_share <= 0.0 {
             Views::One(Side::Back, back())
         } else {
-            Views::Both { front: (front(), front_share), back: (back(), back_share) }
+            Views::Both(Box::new([(front(), front_share), (back(), back_share)]))
         };
         Self { views, area, finish }
     }
@@ -76,7 +76,8 @@ impl LoadSinkage {
         }
         match &self.views {
             Views::One(_, arc) => self.area * arc.up(sinkage),
-            Views::Both { front, back } => {
+            Views::Both(sides) => {
+                let [front, back] = &**sides;
                 let force = |(arc, share): &(Arc, f64)| self.area * arc.up(sinkage) * share;
                 force(front) + force(back)
             }
@@ -90,7 +91,7 @@ impl LoadSinkage {
         let force = |arc: &Arc| self.area * arc.law.most_up(sinkage.max(0.0));
         match &self.views {
             Views::One(_, arc) => force(arc),
-            Views::Both { front, back } => force(&front.0) * front.1 + force(&back.0) * back.1,
+            Views::Both(sides) => sides.iter().map(|(arc, share)| force(arc) * share).sum(),
         }
     }
 
@@ -108,7 +109,7 @@ impl LoadSinkage {
     pub(super) fn only_arc(&self) -> Option<&Arc> {
         match &self.views {
             Views::One(_, arc) => Some(arc),
-            Views::Both { .. } => None,
+            Views::Both(_) => None,
         }
     }
 
@@ -134,10 +135,9 @@ impl LoadSinkage {
 
     /// The arc of the side that enters the soil, or of one of both.
     fn arc(&self, side: Side) -> &Arc {
-        match (&self.views, side) {
-            (Views::One(_, arc), _)
-            | (Views::Both { front: (arc, _), .. }, Side::Front)
-            | (Views::Both { back: (arc, _), .. }, Side::Back) => arc,
+        match &self.views {
+            Views::One(_, arc) => arc,
+            Views::Both(sides) => &sides[usize::from(side == Side::Back)].0,
         }
     }
 
@@ -205,12 +205,12 @@ impl Arc {
     /// ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad].
     #[inline]
     fn up(&self, sinkage: f64) -> f64 {
-        self.set.run(Up { arc: self, sinkage })
+        self.set.of_one_wheel().run(Up { arc: self, sinkage })
     }
 
     #[inline]
     fn reaction(&self, wall: &WallResistance, sinkage: f64) -> Reaction {
-        self.set.run(All { arc: self, wall, sinkage })
+        self.set.of_one_wheel().run(All { arc: self, wall, sinkage })
     }
 }
 

@@ -222,6 +222,25 @@ impl<'a> Equations<'a> {
         self.reactions_anew(&point.state, self.turning(point))
     }
 
+    /// The same on a plane, sought from what is known of the wheels in a motion nearby, with what is
+    /// known of them there.
+    pub(super) fn reactions_near(
+        &self,
+        point: &Point,
+        known: Vec<Known>,
+    ) -> Result<(Vec<WheelReaction>, Vec<Known>), ReactionError> {
+        let state = &point.state;
+        let slips: Vec<Slip> =
+            wheel_slips(self.on_ground.rover, state, self.turning(point)).collect();
+        self.count(|work| work.settled_wheels += slips.len() as u64);
+        let (stance, exact) = (self.on_ground.stance(state), ForceAccuracy::EXACT);
+        let near = &mut self.nearby.borrow_mut();
+        let attempted = std::mem::replace(&mut near.wheels, known);
+        let wheels = self.on_ground.reactions_after(&stance, &slips, near, exact);
+        let known = std::mem::replace(&mut near.wheels, attempted);
+        Ok((wheels?, known))
+    }
+
     /// The rim speeds of the wheels at a point of a run [m/s].
     pub(super) fn turning<'p>(&'p self, point: &'p Point) -> &'p [f64] {
         point.turning.as_ref().map_or(self.rim_speeds, Turning::rim_speeds)
@@ -489,6 +508,11 @@ impl<'a> Equations<'a> {
     /// Whether the soil differs from place to place.
     pub(super) fn has_uneven_soil(&self) -> bool {
         self.on_ground.differences.by_place.is_some()
+    }
+
+    /// Whether wheels stand as uneven ground or a suspension has them.
+    pub(super) fn is_uneven(&self) -> bool {
+        self.on_ground.is_uneven()
     }
 
     /// Whether the ground has heights of its own.

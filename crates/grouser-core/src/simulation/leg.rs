@@ -3,6 +3,7 @@
 //! Pose and velocities are carried on by the one or the other way, a watch sees what becomes of the
 //! rover, and records are kept. A [`Run`](super::Run) is made of legs.
 
+use std::cell::RefCell;
 use std::ops::ControlFlow;
 
 use super::allowance;
@@ -124,7 +125,7 @@ impl Leg<'_> {
             // A run starts steady: what its start would cost the motors is not in the energy
             // balance.
             point.start_work(&self.scenario.rover);
-            let wheels = || Ok(motion.wheels(&point));
+            let wheels = |_| Ok(motion.wheels(&point));
             let slips = motion.slips(equations, &point);
             let _ = self.look(equations, 0.0, &point, &slips, &wheels).map_err(Ended::Failed)?;
         }
@@ -132,7 +133,7 @@ impl Leg<'_> {
             let times = [self.state.time, time];
             let advanced = motion.advance(&mut point, times, self.kept_until);
             advanced.map_err(Ended::NotSteady)?;
-            let wheels = || Ok(motion.wheels(&point));
+            let wheels = |_| Ok(motion.wheels(&point));
             let slips = motion.slips(equations, &point);
             let looked = self.look(equations, time, &point, &slips, &wheels);
             if looked.map_err(Ended::Failed)?.is_break() {
@@ -147,9 +148,19 @@ impl Leg<'_> {
         let (start, start_time) = (self.state.point, self.state.time);
         let integrator = self.scenario.numerics.integrator;
         let mut history = std::mem::take(&mut self.state.history);
+        let recorded = RefCell::new(std::mem::take(&mut self.state.recorded));
+        if self.is_new_command {
+            recorded.take();
+        }
         let mut failed = None;
         let mut on_sample = |now: f64, reached: &Point| {
-            let wheels = || equations.reactions_of(reached);
+            let wheels = |is_on_the_way| {
+                if is_on_the_way {
+                    recorded.borrow_mut().next(equations, now, reached)
+                } else {
+                    equations.reactions_of(reached)
+                }
+            };
             self.look(equations, now, reached, &equations.slips(reached), &wheels).unwrap_or_else(
                 |error| {
                     failed = Some(error);
@@ -177,6 +188,7 @@ impl Leg<'_> {
             }
         };
         self.state.history = history;
+        self.state.recorded = recorded.into_inner();
         if let Some(error) = failed {
             return Err(error);
         }
@@ -224,7 +236,7 @@ impl Leg<'_> {
             equations.renew_allowance();
         }
         let has_belly = is_watched && equations.has_belly();
-        let seen = (is_power_known || has_belly).then(wheels);
+        let seen = (is_power_known || has_belly).then(|| wheels(false));
         let (without_power, high_centred) = match &seen {
             Some(Ok(wheels)) => {
                 let belly = has_belly.then(|| equations.belly(rover, wheels)).flatten();
@@ -246,6 +258,9 @@ impl Leg<'_> {
         }
         state.outcome = state.outcome.take().or(without_power).or(high_centred);
         let is_end = state.outcome.is_some();
+        // What a run ends with does not depend on what it was recorded at before.
+        let is_on_the_way =
+            self.due == Due::Samples && !is_end && !is_same_time(now, self.scenario.duration);
         let is_due = match self.due {
             Due::Samples => {
                 let interval = self.scenario.numerics.sample_interval;
@@ -255,7 +270,7 @@ impl Leg<'_> {
             Due::Nothing => false,
         };
         if is_due {
-            match seen.unwrap_or_else(wheels) {
+            match seen.unwrap_or_else(|| wheels(is_on_the_way)) {
                 Ok(wheels) => {
                     let supply = state.supply.as_ref();
                     self.records.push(Record::new(equations, now, reached, &wheels, supply));
@@ -282,8 +297,9 @@ enum Ended {
     Failed(RunError),
 }
 
-/// Wheels at the point that is looked at, if they are asked for.
-type Wheels<'a> = &'a dyn Fn() -> Result<Vec<WheelReaction>, ReactionError>;
+/// Wheels at the point that is looked at, if they are asked for: of a record on the way, or of any
+/// other look.
+type Wheels<'a> = &'a dyn Fn(bool) -> Result<Vec<WheelReaction>, ReactionError>;
 
 /// What an underside on the ground means.
 fn touching(time: f64, belly: Option<BellyPoint>) -> Result<Option<Outcome>, RunError> {

@@ -12,8 +12,8 @@
 //! through, not with the way it drives: one that keeps its yaw costs two steady states, however far
 //! it goes.
 //!
-//! A command begins with a short stretch, and each is longer than the one before it. Neither the
-//! stretches nor the steps of the pose depend on when somebody looks: a look within a step takes a
+//! A command begins with a stretch as long as the command before it lasted, and each is longer than
+//! the one before it. Neither the stretches nor the steps of the pose depend on when somebody looks: a look within a step takes a
 //! part of it, and the step goes on from its start. So a motion that stays steady has the same bits
 //! however it is cut into advances.
 
@@ -48,9 +48,11 @@ const ROUNDING: f64 = 1e-12;
 const HELD: f64 = 1e-8;
 /// Over so little yaw velocities change in proportion [rad]: a tenth of a degree.
 const LINEAR: f64 = 1.75e-3;
-/// The first stretch under a command is what the rover turns through in this [s]: commands may
-/// change every few hundredths of a second. Source: ours, as are the next two.
+/// The first stretch is what the rover turns through in this [s]: commands may change every few
+/// hundredths of a second. Source: ours, as are the next three.
 const FIRST_STRETCH: f64 = 0.03;
+/// And under a later command in so many times the time for which the one before it lasted [-].
+const AS_LONG_AS_BEFORE: f64 = 1.1;
 /// A stretch is at most so many times as long as the one before it [-].
 const GROWTH: f64 = 20.0;
 /// The narrowest and the longest stretch of yaw with one polynomial [rad].
@@ -111,9 +113,11 @@ pub(super) struct Carried {
     step: BegunStep,
     /// Velocities with which the rims would roll.
     rolled: Vector3<f64>,
+    /// Since when they turn so [s].
+    since: f64,
 }
 
-stored!(struct Carried { memory, stretch, step, rolled });
+stored!(struct Carried { memory, stretch, step, rolled, since });
 
 impl Carried {
     /// Whether a rover with so many wheels can have it.
@@ -151,6 +155,8 @@ pub(super) struct QuasiSteady<'a, 'g> {
     solver: SteadySolver<'a, 'g>,
     stretch: Stretch,
     step: BegunStep,
+    /// Since when the rims turn as they do [s].
+    since: f64,
 }
 
 impl<'a, 'g> QuasiSteady<'a, 'g> {
@@ -170,19 +176,26 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
             return Err(NotSteady::UnevenSoil);
         }
         let yaw = point.state.yaw;
+        let mut lasts = FIRST_STRETCH;
         let (memory, before) = match before {
-            Before::Steady(Carried { memory, stretch, step, .. }) if !rims_changed => {
+            Before::Steady(Carried { memory, stretch, step, since, .. }) if !rims_changed => {
                 let solver = SteadySolver::new(equations, memory);
-                return Ok(Self { equations, solver, stretch, step });
+                return Ok(Self { equations, solver, stretch, step, since });
             }
-            Before::Steady(Carried { memory, rolled, .. }) => (memory, Before::Steady(rolled)),
+            Before::Steady(Carried { memory, rolled, since, .. }) => {
+                if time > since {
+                    lasts = AS_LONG_AS_BEFORE * (time - since);
+                }
+                (memory, Before::Steady(rolled))
+            }
             Before::Another => (Memory::default(), Before::Another),
             Before::Nothing => (Memory::default(), Before::Nothing),
         };
         let mut solver = SteadySolver::new(equations, memory);
         let here = solver.find_after(yaw, &point.velocities(), before)?;
-        let stretch = Stretch::first(&mut solver, here)?;
-        let mut motion = Self { equations, solver, stretch, step: BegunStep::at(point, time) };
+        let stretch = Stretch::first(&mut solver, here, lasts)?;
+        let step = BegunStep::at(point, time);
+        let mut motion = Self { equations, solver, stretch, step, since: time };
         motion.set_velocities(point);
         motion.step = BegunStep::at(point, time);
         Ok(motion)
@@ -192,7 +205,7 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
     pub(super) fn carry(self) -> Carried {
         let rolled = rolling(self.equations);
         let memory = self.solver.memory();
-        Carried { memory, stretch: self.stretch, step: self.step, rolled }
+        Carried { memory, stretch: self.stretch, step: self.step, rolled, since: self.since }
     }
 
     /// The wheels at a point of the motion.
@@ -296,8 +309,14 @@ struct PoseRates {
 
 impl Stretch {
     /// The stretch with which a motion begins.
-    fn first(solver: &mut SteadySolver<'_, '_>, here: SteadyState) -> Result<Self, NotSteady> {
-        let most = FIRST_STRETCH * here.velocities.z.abs();
+    ///
+    /// * `lasts`: for how long it is expected to [s]
+    fn first(
+        solver: &mut SteadySolver<'_, '_>,
+        here: SteadyState,
+        lasts: f64,
+    ) -> Result<Self, NotSteady> {
+        let most = lasts * here.velocities.z.abs();
         if most > HELD {
             return Self::ahead(solver, here, most);
         }
@@ -327,8 +346,16 @@ impl Stretch {
         }
         let width = most.min(LONGEST_STRETCH).copysign(rate);
         let stretch = Self::through(solver, here, width)?;
-        stretch.check(solver, settling_time, rate)?;
+        let per_yaw = stretch.per_yaw();
+        Self::check(solver, &per_yaw, settling_time, rate)?;
+        solver.remember_per_yaw(per_yaw);
         Ok(stretch)
+    }
+
+    /// How velocities change along the stretch [m/s/rad, m/s/rad, 1/s].
+    fn per_yaw(&self) -> Vector3<f64> {
+        let [first, last] = [&self.nodes[0], &self.nodes[self.nodes.len() - 1]];
+        (last.velocities - first.velocities) / self.width
     }
 
     /// Steady states over a stretch that starts with a known one, halved until it is resolved.
@@ -361,15 +388,13 @@ impl Stretch {
 
     /// Checks that velocities can follow the steady state as it moves along the stretch.
     fn check(
-        &self,
         solver: &SteadySolver<'_, '_>,
+        per_yaw: &Vector3<f64>,
         settling_time: f64,
         rate: f64,
     ) -> Result<(), NotSteady> {
-        let [first, last] = [&self.nodes[0], &self.nodes[self.nodes.len() - 1]];
-        let slope = (last.velocities - first.velocities) / self.width;
-        let lag = settling_time * rate.abs() * solver.size(&slope);
-        if lag > MOST_LAG || settling_time * slope.z.abs() > MOST_COUPLING {
+        let lag = settling_time * rate.abs() * solver.size(per_yaw);
+        if lag > MOST_LAG || settling_time * per_yaw.z.abs() > MOST_COUPLING {
             return Err(NotSteady::Lags { settling_time, lag });
         }
         Ok(())
@@ -476,7 +501,12 @@ fn fill(
         }
         let places: Vec<f64> = known.iter().take(5).map(|(at, _)| *at).collect();
         let weighted = known.iter().zip(lagrange::weights::<5>(&places, share));
-        let guess = weighted.map(|((_, node), weight)| node.velocities * weight).sum();
+        let along: Vector3<f64> =
+            weighted.map(|((_, node), weight)| node.velocities * weight).sum();
+        // Of one alone only the stretch before this tells how they change.
+        let further =
+            if known.len() == 1 { solver.per_yaw() * (share * width) } else { Vector3::zeros() };
+        let guess = along + further;
         let steady = solver.find(start + share * width, &guess)?;
         known.push((share, steady));
         known.sort_by(|(one, _), (other, _)| one.total_cmp(other));

@@ -9,6 +9,7 @@ use super::most_taken::MostTaken;
 use super::outcome::Outcome;
 use super::point::Point;
 use super::power;
+use super::recorded::RecordedWheels;
 use super::scenario::{Approach, Motion, Scenario};
 use super::steady_run::Carried;
 use super::supply::{Charge, LIMIT_PERIOD, Supply};
@@ -57,6 +58,8 @@ pub struct State {
     pub(super) carried: Carried,
     /// The wheels where the motion was last evaluated.
     pub(super) near: LastWheels,
+    /// Those of the last records.
+    pub(super) recorded: RecordedWheels,
 }
 
 /// Why bytes are no state of a run.
@@ -112,6 +115,7 @@ impl State {
             history: History::default(),
             carried: Carried::default(),
             near: LastWheels::default(),
+            recorded: RecordedWheels::default(),
         }
     }
 
@@ -171,6 +175,7 @@ impl State {
             history,
             carried,
             near,
+            recorded,
             approach,
         } = self;
         stored::sealed(|bytes| {
@@ -188,6 +193,7 @@ impl State {
             history.store(bytes);
             carried.store(bytes);
             near.store(bytes);
+            recorded.store(bytes);
             approach.store(bytes);
         })
     }
@@ -250,6 +256,7 @@ impl State {
             history: Stored::restore(bytes)?,
             carried: Stored::restore(bytes)?,
             near: Stored::restore(bytes)?,
+            recorded: Stored::restore(bytes)?,
             approach: Stored::restore(bytes)?,
         };
         (state.carried.is_of(count) && state.near.is_of(count)).then_some(state)

@@ -609,6 +609,30 @@ impl Known {
         each.map(|(wheel, mount)| Self::of(ground, mount, wheel)).collect()
     }
 
+    /// What several motions of a wheel tell of one that they point to, by their weights, of which the
+    /// last one is the nearest; none of none.
+    pub(crate) fn blended<'k>(
+        weighted: impl Iterator<Item = (&'k Self, f64)> + Clone,
+    ) -> Option<Self> {
+        let (nearest, _) = weighted.clone().last()?;
+        let number =
+            |of: fn(&Self) -> f64| weighted.clone().map(|(it, weight)| weight * of(it)).sum();
+        let slip = Slip {
+            ratio: number(|it| it.slip.ratio),
+            angle: number(|it| it.slip.angle),
+            forward: number(|it| it.slip.forward),
+            lateral: number(|it| it.slip.lateral),
+            ..nearest.slip
+        };
+        let place = Place {
+            depth: number(|it| it.place.depth),
+            load: number(|it| it.place.load),
+            forces: blended(weighted.clone().map(|(it, weight)| (&it.place.forces, weight))),
+            moments: weighted.map(|(it, weight)| weight * it.place.moments).sum(),
+        };
+        Some(Self { slip, place, slope: nearest.slope })
+    }
+
     /// Whether how forces change with the load was seen.
     pub(super) fn has_slope(&self) -> bool {
         self.slope.width.is_finite()

@@ -174,7 +174,8 @@ fn droop_is_the_same_dynamically_and_quasi_steadily() {
         let EnergyBalance { motors, soil, kinetic, potential, .. } = run.last().energy;
         let start = run.records[0].energy;
         let left = motors - soil - (kinetic - start.kinetic) - (potential - start.potential);
-        assert!((left / motors).abs() < 1e-6, "{approach:?}: {left:e} J of {motors} J");
+        // Steady velocities are found to 1e-6 of the rims' speed, and powers with them.
+        assert!((left / motors).abs() < 2e-6, "{approach:?}: {left:e} J of {motors} J");
         assert!(start.motors.abs() < 1e-15);
         (run.last().state, run.last().energy.electrical)
     });
@@ -583,7 +584,7 @@ fn motors_cost_at_most_twice_a_dynamic_run() {
     let stiff = SpeedControl { gain: 1000.0, ..PROPORTIONAL };
     let cases = [
         (Approach::Dynamic, 20.0, [(PROPORTIONAL, 1.7), (stiff, 1.7), (integral, 2.1)]),
-        (Approach::QuasiSteady, 600.0, [(PROPORTIONAL, 1.9), (stiff, 1.7), (integral, 1.5)]),
+        (Approach::QuasiSteady, 600.0, [(PROPORTIONAL, 2.0), (stiff, 1.7), (integral, 1.5)]),
     ];
     for (approach, duration, controls) in cases {
         let work = |mut scenario: Scenario| {

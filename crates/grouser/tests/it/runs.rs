@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use grouser::contact::Model;
 use grouser::document::{self, Kind, Overrides, Source};
+use grouser::simulation::equations::Equations;
 use grouser::simulation::steady_state::LONGEST_SETTLING;
 use grouser::simulation::{
     Approach, Integrator, Method, Motion, Numerics, Outcome, Record, Scenario, Start, StuckBecause,
@@ -14,7 +15,7 @@ use grouser::studies::heading::{HeadingStudy, Steering};
 use grouser::units::{EARTH_GRAVITY, MOON_GRAVITY, Vec2, deg};
 use grouser::vehicle::drive::SlipTarget;
 use grouser::vehicle::kinematics::hub_velocity;
-use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverState};
+use grouser::vehicle::{DriveLaw, LoadSharing, OwnMoments, Rover, RoverState, WheelReaction};
 
 use super::given::{self, RIM_SPEED, run, traverse};
 
@@ -137,6 +138,34 @@ fn the_sample_interval_changes_nothing_visible() {
 }
 
 // ---- quasi-steady ----
+
+/// A record begins its search where those before it point to, and ends it where any other does.
+#[test]
+fn the_wheels_of_records_are_those_that_settle_anew() {
+    for (name, scenario) in all_kinds() {
+        let mut most: f64 = 0.0;
+        for record in run(&scenario).records {
+            let pairs = record.wheels.iter().zip(scenario.rover.mounts());
+            let rim_speeds: Vec<f64> =
+                pairs.map(|(wheel, mount)| wheel.wheel_speed * mount.shearing_radius()).collect();
+            let Ok(anew) = Equations::of(&scenario, &rim_speeds).reactions(&record.state) else {
+                continue;
+            };
+            for (wheel, anew) in record.wheels.iter().zip(&anew) {
+                let (ours, theirs) = (&wheel.reaction, anew);
+                let forces = |it: &WheelReaction| {
+                    let forces = &it.settled.forces;
+                    [it.load, forces.drawbar_pull, forces.side_force, forces.normal_force]
+                };
+                let apart =
+                    forces(ours).into_iter().zip(forces(theirs)).map(|(a, b)| (a - b).abs());
+                let sunk = ours.settled.sinkage / theirs.settled.sinkage - 1.0;
+                most = apart.map(|it| it / theirs.load).fold(most.max(sunk.abs()), f64::max);
+            }
+        }
+        assert!(most < 1e-11, "{name}: {most:.1e} of the load");
+    }
+}
 
 fn quasi_steady(scenario: &Scenario) -> Scenario {
     let numerics = Numerics { approach: Approach::QuasiSteady, ..scenario.numerics };
