@@ -17,6 +17,5 @@ pub(crate) fn write() -> Result<()> {
     let mut program = Command::new(workspace::build("grouser-bench", Profile::Release)?);
     let output = program.stderr(Stdio::inherit()).output().context("the program did not start")?;
     ensure!(output.status.success(), "the times cannot be measured");
-    let times = format!("```text\n{}```\n", String::from_utf8(output.stdout)?);
-    markers::write_content_by(PERFORMANCE, TIMES, &times)
+    markers::write_content_by(PERFORMANCE, TIMES, &String::from_utf8(output.stdout)?)
 }
