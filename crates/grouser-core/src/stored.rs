@@ -256,7 +256,7 @@ pub(crate) fn opened(bytes: &[u8]) -> Option<&[u8]> {
 
 /// What sealed bytes start with: the version, and a number that grows whenever fields of some
 /// [`stored`] type change within one.
-const SEAL: &str = concat!("grouser state ", env!("CARGO_PKG_VERSION"), ", 2\n");
+const SEAL: &str = concat!("grouser state ", env!("CARGO_PKG_VERSION"), ", 3\n");
 
 /// FNV-1a (Fowler, Noll and Vo) of 64 bits: it tells damage, not intent.
 fn checksum(bytes: &[u8]) -> u64 {

@@ -161,7 +161,10 @@ impl LoadSinkage {
 pub(super) struct Arc {
     pub(super) law: StressLaw,
     rule: &'static ArcRule,
+    /// Among many.
     pub(super) set: InstructionSet,
+    /// Alone.
+    alone: InstructionSet,
 }
 
 /// What the kernel computes of an arc at one sinkage.
@@ -192,6 +195,7 @@ impl Numerics {
             law: StressLaw::new(contact, response),
             rule: self.rule.unwrap_or_else(|| ArcRule::of(contact)),
             set: self.set.unwrap_or_else(InstructionSet::best),
+            alone: self.set.unwrap_or_else(InstructionSet::best_of_one_wheel),
         }
     }
 }
@@ -205,12 +209,12 @@ impl Arc {
     /// ∫ (τ_x sin θ + σ cos θ) dθ [Pa·rad].
     #[inline]
     fn up(&self, sinkage: f64) -> f64 {
-        self.set.of_one_wheel().run(Up { arc: self, sinkage })
+        self.alone.run(Up { arc: self, sinkage })
     }
 
     #[inline]
     fn reaction(&self, wall: &WallResistance, sinkage: f64) -> Reaction {
-        self.set.of_one_wheel().run(All { arc: self, wall, sinkage })
+        self.alone.run(All { arc: self, wall, sinkage })
     }
 }
 

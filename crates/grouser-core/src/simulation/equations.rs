@@ -241,6 +241,12 @@ impl<'a> Equations<'a> {
         Ok((wheels?, known))
     }
 
+    /// What is known on a plane of wheels that were settled in any way; nothing of wheels that are not
+    /// carried.
+    pub(super) fn known_of(&self, wheels: &[WheelReaction]) -> Vec<Known> {
+        Known::of_all(&self.on_ground, wheels).unwrap_or_default()
+    }
+
     /// The rim speeds of the wheels at a point of a run [m/s].
     pub(super) fn turning<'p>(&'p self, point: &'p Point) -> &'p [f64] {
         point.turning.as_ref().map_or(self.rim_speeds, Turning::rim_speeds)

@@ -117,6 +117,7 @@ impl Leg<'_> {
         carried: Carried,
         times: &[f64],
     ) -> Result<Carried, Ended> {
+        self.state.recorded.clear();
         let mut point = self.state.point;
         let (time, is_new) = (self.state.time, self.is_new_command);
         let started = SteadyRun::from(equations, carried, &mut point, time, is_new);
@@ -149,9 +150,6 @@ impl Leg<'_> {
         let integrator = self.scenario.numerics.integrator;
         let mut history = std::mem::take(&mut self.state.history);
         let recorded = RefCell::new(std::mem::take(&mut self.state.recorded));
-        if self.is_new_command {
-            recorded.take();
-        }
         let mut failed = None;
         let mut on_sample = |now: f64, reached: &Point| {
             let wheels = |is_on_the_way| {

@@ -12,8 +12,8 @@
 //! through, not with the way it drives: one that keeps its yaw costs two steady states, however far
 //! it goes.
 //!
-//! A command begins with a stretch as long as the command before it lasted, and each is longer than
-//! the one before it. Neither the stretches nor the steps of the pose depend on when somebody looks: a look within a step takes a
+//! A command begins with a stretch as long as the steady one before it lasted, the first with a short
+//! one, and each is longer than the one before it. Neither the stretches nor the steps of the pose depend on when somebody looks: a look within a step takes a
 //! part of it, and the step goes on from its start. So a motion that stays steady has the same bits
 //! however it is cut into advances.
 
@@ -51,7 +51,8 @@ const LINEAR: f64 = 1.75e-3;
 /// The first stretch is what the rover turns through in this [s]: commands may change every few
 /// hundredths of a second. Source: ours, as are the next three.
 const FIRST_STRETCH: f64 = 0.03;
-/// And under a later command in so many times the time for which the one before it lasted [-].
+/// And under a later command in so many times the time for which the one before it lasted [-], if
+/// that is longer.
 const AS_LONG_AS_BEFORE: f64 = 1.1;
 /// A stretch is at most so many times as long as the one before it [-].
 const GROWTH: f64 = 20.0;
@@ -140,6 +141,7 @@ impl Carried {
         is_wide
             && nodes.iter().all(is_node)
             && time.is_finite()
+            && self.memory.is_of(count)
             && [from, seen].into_iter().all(|point| has_wheels(&point.turning))
     }
 
@@ -183,9 +185,7 @@ impl<'a, 'g> QuasiSteady<'a, 'g> {
                 return Ok(Self { equations, solver, stretch, step, since });
             }
             Before::Steady(Carried { memory, rolled, since, .. }) => {
-                if time > since {
-                    lasts = AS_LONG_AS_BEFORE * (time - since);
-                }
+                lasts = lasts.max(AS_LONG_AS_BEFORE * (time - since));
                 (memory, Before::Steady(rolled))
             }
             Before::Another => (Memory::default(), Before::Another),

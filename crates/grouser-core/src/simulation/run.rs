@@ -531,8 +531,9 @@ impl Run {
         let supply = self.state.supply.as_ref();
         let equations = Equations::of(&self.scenario, set_speeds)
             .limited(supply.map_or(&[], |supply| supply.limits()));
-        let steady = carried.wheels(&equations, point);
-        let wheels = steady.unwrap_or_else(|| equations.reactions_of(point).unwrap_or_default());
+        let recorded = || self.state.recorded.wheels_at(*time).map(<[_]>::to_vec);
+        let known = carried.wheels(&equations, point).or_else(recorded);
+        let wheels = known.unwrap_or_else(|| equations.reactions_of(point).unwrap_or_default());
         Record::new(&equations, *time, point, &wheels, supply)
     }
 }

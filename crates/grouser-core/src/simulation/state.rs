@@ -259,7 +259,8 @@ impl State {
             recorded: Stored::restore(bytes)?,
             approach: Stored::restore(bytes)?,
         };
-        (state.carried.is_of(count) && state.near.is_of(count)).then_some(state)
+        let is_of = state.carried.is_of(count) && state.near.is_of(count);
+        (is_of && state.recorded.is_of(count)).then_some(state)
     }
 
     /// Time since the start [s].
@@ -360,16 +361,22 @@ impl State {
         let Some(supply) = self.supply.as_mut().filter(|_| is_due) else { return false };
         let matters = supply.renew_limits(rover);
         if matters {
-            self.history.clear();
+            self.forget_motion();
         }
         matters
+    }
+
+    /// Forgets the motion before, which says nothing of the one after.
+    fn forget_motion(&mut self) {
+        self.history.clear();
+        self.recorded.clear();
     }
 
     /// Changes pose and velocities at once, as [`Point::jump`]: the motion before says nothing of
     /// the one after.
     pub(super) fn jump(&mut self, rover: &Rover, change: impl FnOnce(&mut RoverState)) {
         self.point.jump(rover, change);
-        self.history.clear();
+        self.forget_motion();
     }
 
     /// Steers the wheels from now on. What a hub beside its kingpin changes of the rover's energies
@@ -384,7 +391,7 @@ impl State {
             power::kinetic_energy(rover, state) + potential
         };
         self.point.motors += energy(&rover) - energy(&scenario.rover);
-        self.history.clear();
+        self.forget_motion();
         self.steered = Some(Arc::new(rover.clone()));
         self.approach = scenario.numerics.approach;
         scenario.rover = rover;
@@ -413,7 +420,7 @@ impl State {
         }
         self.commanded.copy_from_slice(commanded);
         if set_speeds != self.set_speeds {
-            self.history.clear();
+            self.forget_motion();
             self.set_speeds = set_speeds;
             // A steady motion may be found again.
             self.approach = scenario.numerics.approach;

@@ -145,6 +145,15 @@ pub(super) struct Memory {
 
 stored!(struct Memory { scale, inverse, with_motors, checked, response, per_yaw });
 
+impl Memory {
+    /// Whether a rover with so many wheels can have it.
+    pub(super) fn is_of(&self, count: usize) -> bool {
+        self.with_motors.as_ref().is_none_or(|(inverse, turning)| {
+            inverse.shape() == (3 + count, 3 + count) && turning.rim_speeds().len() == count
+        })
+    }
+}
+
 /// From velocities this near to those of the steady state one more step leads to it, unlooked at,
 /// over the fastest rim's speed [-]: velocities are found to some 3e-7, while forces and powers are
 /// those of slip ratios that are off by so much, within 1e-4 of their size. Source: ours, a tenth of
@@ -162,7 +171,9 @@ const MOST_MISSED: f64 = 1e-8;
 const LONGEST: f64 = 0.5;
 /// From a guess whose step is longer than this a Jacobian found there leads on faster than the one
 /// that is remembered, over the fastest rim's speed [-]. Source: measured; between 0.01 and 0.03
-/// evaluations of random commands are as many, without it a tenth more.
+/// evaluations of random commands of the left and the right are as many, without it a tenth more.
+/// Where each wheel has a random speed of its own they are as many with it, a fifth of them
+/// differences.
 const FAR: f64 = 0.02;
 /// Step of differences over the fastest rim's speed [-]: forces are exact to 1e-12.
 const STEP: f64 = 1e-6;
@@ -183,8 +194,8 @@ const LONGEST_WAY: f64 = 4.0 * LONGEST_SETTLING;
 /// guess.
 const SIMILAR: std::ops::RangeInclusive<f64> = 0.2..=5.0;
 /// Rims turn much the same as before where the velocities of rolling wheels change by no more than
-/// this, but for a common factor, over the fastest rim's speed [-], or where all hubs go on the same
-/// way along the body. Source: ours; a slip ratio of 1 is twice as far.
+/// this, but for a common factor, over the fastest rim's speed [-]. Source: ours; a slip ratio of 1
+/// is twice as far.
 const MUCH_THE_SAME: f64 = 0.5;
 /// Steps of a start, whose accelerations stay, become longer by this at the most [-].
 const MOST_LONGER: f64 = 3.0;
@@ -257,19 +268,19 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
     }
 
     /// Learns from a change of rolling wheels how velocities change with it: the response nearest to
-    /// the known one that explains it (Broyden 1965).
+    /// the known one that explains it (Broyden 1965), of little changes a part. One that misses more
+    /// than the change is forgotten.
     ///
     /// * `missed`: by how much the expected velocities were short of those found
     fn learn_response(&mut self, change: &Vector3<f64>, missed: &Vector3<f64>) {
-        /// Smaller changes tell nothing, over the fastest rim's speed [-].
-        const LEAST: f64 = 1e-3;
-        if self.size(change) > LEAST {
-            let change = change.component_mul(&self.lengths());
-            let missed = missed.component_mul(&self.lengths());
-            let known = self.memory.response.unwrap_or_else(Matrix3::identity);
-            self.memory.response =
-                Some(known + missed * change.transpose() / change.norm_squared());
-        }
+        /// Of changes of this size half is learnt, over the fastest rim's speed [-].
+        const LITTLE: f64 = 0.01;
+        let change = change.component_mul(&self.lengths());
+        let missed = missed.component_mul(&self.lengths());
+        let least = LITTLE * self.scale;
+        let known = self.memory.response.unwrap_or_else(Matrix3::identity);
+        let learnt = known + missed * change.transpose() / (change.norm_squared() + least * least);
+        self.memory.response = (missed.norm() <= change.norm().max(least)).then_some(learnt);
     }
 
     /// Whether the ground is level.
@@ -306,7 +317,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
     ///
     /// Where a rover can move in more than one way, as in a turn on the spot on a slope, how it
     /// moved decides which it comes to: where the rims turn much the same as before, its velocities
-    /// change with theirs as they last did; elsewhere it is followed from its velocities.
+    /// change with theirs as they last did, and so where all wheels go on the same way; elsewhere it is
+    /// followed from its velocities.
     ///
     /// * `now`: its velocities
     /// * `before`: how it moved, with the velocities with which the rims rolled
@@ -326,12 +338,19 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
             let faster = rolling.xy().dot(&rolled.xy()) / rolled.xy().norm_squared();
             let faster = if SIMILAR.contains(&faster) { faster } else { 1.0 };
             let change = rolling - faster * rolled;
-            if self.size(&change) <= MUCH_THE_SAME || self.goes_on(&rolled, &rolling) {
+            let is_much_the_same = self.size(&change) <= MUCH_THE_SAME;
+            if is_much_the_same || self.goes_on(&rolled, &rolling) {
                 self.scale_memory(faster);
                 let guess = faster * now + self.response_to(&change);
-                let steady = self.find(yaw, &guess)?;
-                self.learn_response(&change, &(steady.velocities - guess));
-                return Ok(steady);
+                let found = if is_much_the_same {
+                    Some(self.find(yaw, &guess)?)
+                } else {
+                    self.find_close(yaw, &guess)
+                };
+                if let Some(steady) = found {
+                    self.learn_response(&change, &(steady.velocities - guess));
+                    return Ok(steady);
+                }
             }
         }
         // What other motions did with the yaw or with their rims tells nothing of this one.
@@ -345,11 +364,18 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         if time > LONGEST_WAY { Err(NotSteady::Slow { settling_time: time }) } else { Ok(steady) }
     }
 
-    /// Whether all hubs of rolling wheels move the same way along the body as before.
+    /// Whether all wheels turn one way now, and all hubs of rolling wheels move this way along the body
+    /// as they did before, without much of a change across it. Motors that droop have speeds of their
+    /// own.
     fn goes_on(&self, before: &Vector3<f64>, now: &Vector3<f64>) -> bool {
         let arms = self.equations.rover().load_arms();
         let side = arms.iter().map(|arm| arm.y.abs()).fold(0.0, f64::max);
-        before.x * now.x > 0.0 && [before, now].iter().all(|it| (it.z * side).abs() < it.x.abs())
+        let goes_along =
+            |it: &&Vector3<f64>| it.x * now.x > 0.0 && (it.z * side).abs() < it.x.abs();
+        !self.equations.droops()
+            && self.equations.rim_speeds().iter().all(|rim| rim * now.x > 0.0)
+            && [before, now].iter().all(goes_along)
+            && (now.y - before.y).abs() <= MUCH_THE_SAME * self.scale
     }
 
     /// Whether no wheel is to turn.

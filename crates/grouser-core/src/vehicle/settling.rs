@@ -630,7 +630,9 @@ impl Known {
             forces: blended(weighted.clone().map(|(it, weight)| (&it.place.forces, weight))),
             moments: weighted.map(|(it, weight)| weight * it.place.moments).sum(),
         };
-        Some(Self { slip, place, slope: nearest.slope })
+        // Seen at another slip.
+        let width = nearest.slope.width + difference(&nearest.slip, &slip);
+        Some(Self { slip, place, slope: Slope { width, ..nearest.slope } })
     }
 
     /// Whether how forces change with the load was seen.

@@ -7,8 +7,8 @@ use grouser::document::{self, Kind, Overrides, Source};
 use grouser::simulation::equations::Equations;
 use grouser::simulation::steady_state::LONGEST_SETTLING;
 use grouser::simulation::{
-    Approach, Integrator, Method, Motion, Numerics, Outcome, Record, Scenario, Start, StuckBecause,
-    Trajectory, WheelRecord,
+    Approach, Integrator, Method, Motion, Numerics, Outcome, Record, Run, Scenario, Start,
+    StuckBecause, Trajectory, WheelRecord,
 };
 use grouser::soil::{Bulldozing, PressureSinkage, Shear, SinkageExponent, Soil};
 use grouser::studies::heading::{HeadingStudy, Steering};
@@ -160,10 +160,25 @@ fn the_wheels_of_records_are_those_that_settle_anew() {
                 let apart =
                     forces(ours).into_iter().zip(forces(theirs)).map(|(a, b)| (a - b).abs());
                 let sunk = ours.settled.sinkage / theirs.settled.sinkage - 1.0;
+                assert!(ours.load.is_finite() && sunk.is_finite(), "{name}");
                 most = apart.map(|it| it / theirs.load).fold(most.max(sunk.abs()), f64::max);
             }
         }
         assert!(most < 1e-11, "{name}: {most:.1e} of the load");
+    }
+}
+
+/// What a record on the way has, a run has there too: one that goes on from a state, and one whose
+/// records are taken away.
+#[test]
+fn the_last_record_is_where_the_run_is() {
+    let mut run = Run::new(&traverse(deg(10.0), 0.0)).expect("it starts");
+    for _ in 0..20 {
+        run.play(0.1).expect("it goes on");
+        let records = run.take_records();
+        let last = records.last().expect("it keeps tenths of a second");
+        assert_eq!(run.now(), last);
+        assert_eq!(Run::resume(run.scenario(), run.state().clone()).now(), last);
     }
 }
 

@@ -66,11 +66,12 @@ impl InstructionSet {
         }
     }
 
-    /// The one on which the nodes of a single wheel are computed fastest: four doubles at once also
-    /// where eight can be, since all nodes of eight at once wait for each other. Source: measured on
-    /// a processor with two units of eight, where the wheels of a rover take a tenth less so.
-    pub(in crate::contact) fn of_one_wheel(self) -> Self {
-        if self == Self::Avx512 { Self::Avx2 } else { self }
+    /// The fastest for the nodes of a single wheel: four doubles at once also where eight can be,
+    /// since all nodes of eight at once wait for each other. Source: measured on a processor with two
+    /// units of eight, where the wheels of a rover take a tenth less so.
+    pub(in crate::contact) fn best_of_one_wheel() -> Self {
+        let best = Self::best();
+        if best == Self::Avx512 { Self::Avx2 } else { best }
     }
 
     /// Does multiplications and additions of doubles, none of which waits for another: what a
