@@ -28,7 +28,7 @@ def begun(**changes: Any) -> gr.Run:
 
 @pytest.mark.parametrize("simulation", ["dynamic", "quasi-steady"])
 def test_slopes_by_commands_are_those_of_whole_steps(simulation: str) -> None:
-    """Tolerance: slopes bend by 2e-4 over 0.3 mm/s, and a step has errors of 1e-7 of its way."""
+    """Tolerance: slopes bend by 2e-4 over 0.3 mm/s, and a step has errors of 3e-7 of its way."""
     run = begun(simulation=simulation)
     here, linear = run.save(), run.linearise(ARC, 0.5)
     assert run.save() == here and linear.kinks == []
@@ -39,7 +39,7 @@ def test_slopes_by_commands_are_those_of_whole_steps(simulation: str) -> None:
         run.restore(here)
         return run.step(ARC + by * np.eye(4)[wheel], 0.5)
 
-    for length in (3e-5, 3e-4):
+    for length in (1e-4, 3e-4):
         for wheel in range(4):
             own = (moved(wheel, length) - moved(wheel, -length)) / (2.0 * length)
             assert linear.B[:3, wheel] == pytest.approx(own[:3], rel=1e-3, abs=1e-3), wheel
