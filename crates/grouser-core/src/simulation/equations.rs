@@ -222,8 +222,8 @@ impl<'a> Equations<'a> {
         self.reactions_anew(&point.state, self.turning(point))
     }
 
-    /// The same on a plane, sought from what is known of the wheels in a motion nearby, with what is
-    /// known of them there.
+    /// The reactions at a point of a run on a plane, sought from what is known of the wheels in a
+    /// motion nearby, and what is known of them there.
     pub(super) fn reactions_near(
         &self,
         point: &Point,

@@ -12,10 +12,11 @@
 //! through, not with the way it drives: one that keeps its yaw costs two steady states, however far
 //! it goes.
 //!
-//! A command begins with a stretch as long as the steady one before it lasted, the first with a short
-//! one, and each is longer than the one before it. Neither the stretches nor the steps of the pose depend on when somebody looks: a look within a step takes a
-//! part of it, and the step goes on from its start. So a motion that stays steady has the same bits
-//! however it is cut into advances.
+//! A command begins with a stretch as long as the steady one before it lasted, the first with a
+//! short one, and each is longer than the one before it. Neither the stretches nor the steps of the
+//! pose depend on when somebody looks: a look within a step takes a part of it, and the step goes
+//! on from its start. So a motion that stays steady has the same bits however it is cut into
+//! advances.
 
 use nalgebra::Vector3;
 
@@ -503,7 +504,7 @@ fn fill(
         let weighted = known.iter().zip(lagrange::weights::<5>(&places, share));
         let along: Vector3<f64> =
             weighted.map(|((_, node), weight)| node.velocities * weight).sum();
-        // Of one alone only the stretch before this tells how they change.
+        // Where one steady state alone is known, the stretch before this tells how they change.
         let further =
             if known.len() == 1 { solver.per_yaw() * (share * width) } else { Vector3::zeros() };
         let guess = along + further;

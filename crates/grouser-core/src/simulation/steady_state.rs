@@ -273,7 +273,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
     ///
     /// * `missed`: by how much the expected velocities were short of those found
     fn learn_response(&mut self, change: &Vector3<f64>, missed: &Vector3<f64>) {
-        /// Of changes of this size half is learnt, over the fastest rim's speed [-].
+        /// A change of this size is learnt by half, over the fastest rim's speed [-].
         const LITTLE: f64 = 0.01;
         let change = change.component_mul(&self.lengths());
         let missed = missed.component_mul(&self.lengths());

@@ -54,7 +54,8 @@ impl InstructionSet {
         }
     }
 
-    /// The fastest for many wheels that this processor has. The standard library remembers what it detected.
+    /// The fastest for many wheels that this processor has. The standard library remembers what it
+    /// detected.
     #[must_use]
     pub fn best() -> Self {
         if Self::Avx512.is_available() {
