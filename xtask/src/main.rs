@@ -42,7 +42,6 @@ mod vendored;
 mod wasm;
 mod workflows;
 mod workspace;
-mod yardstick;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
