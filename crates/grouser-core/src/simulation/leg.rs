@@ -91,6 +91,8 @@ impl Leg<'_> {
                 }
                 Err(Ended::NotSteady(because)) => {
                     equations.renew_allowance();
+                    // What a search without an end left says nothing of this motion.
+                    drop(equations.take_near());
                     let time = self.state.time;
                     self.state.approach = Approach::Dynamic;
                     if self.state.method == Method::QuasiSteady {

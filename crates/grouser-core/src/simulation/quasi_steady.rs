@@ -508,7 +508,13 @@ fn fill(
         let further =
             if known.len() == 1 { solver.per_yaw() * (share * width) } else { Vector3::zeros() };
         let guess = along + further;
-        let steady = solver.find(start + share * width, &guess)?;
+        let yaw = start + share * width;
+        // A stretch that is too long for a search from nearby is halved.
+        let steady = if width.abs() > LINEAR {
+            solver.find_near(yaw, &guess)
+        } else {
+            solver.find(yaw, &guess)
+        }?;
         known.push((share, steady));
         known.sort_by(|(one, _), (other, _)| one.total_cmp(other));
     }

@@ -295,8 +295,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         u.abs().max(v.abs()).max((rate * self.reach).abs()) / self.scale
     }
 
-    /// The steady state at a yaw, sought from nearby velocities.
-    pub(super) fn find(
+    /// The steady state at a yaw, sought from velocities near enough for Newton's steps.
+    pub(super) fn find_near(
         &mut self,
         yaw: f64,
         guess: &Vector3<f64>,
@@ -305,12 +305,26 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         if self.is_at_rest() && (self.equations.is_held() || self.equations.droops()) {
             return Err(NotSteady::NoSteadyState);
         }
-        if self.equations.droops() {
-            return self.find_turning(yaw, guess).ok_or(NotSteady::NoSteadyState);
+        let found = if self.equations.droops() {
+            self.find_turning(yaw, guess)
+        } else {
+            self.find_close(yaw, guess)
+        };
+        found.ok_or(NotSteady::NoSteadyState)
+    }
+
+    /// The same, from velocities that may be farther off: then what the rover comes to from there.
+    pub(super) fn find(
+        &mut self,
+        yaw: f64,
+        guess: &Vector3<f64>,
+    ) -> Result<SteadyState, NotSteady> {
+        let found = self.find_near(yaw, guess);
+        if found.is_ok() || self.equations.droops() || self.is_at_rest() && self.equations.is_held()
+        {
+            return found;
         }
-        let close = self.find_close(yaw, guess);
-        let settled = || self.settle(yaw, guess, 0.0).map(|it| it.steady);
-        close.or_else(settled).ok_or(NotSteady::NoSteadyState)
+        self.settle(yaw, guess, 0.0).map(|it| it.steady).ok_or(NotSteady::NoSteadyState)
     }
 
     /// The steady state with which a motion begins, or goes on after a change of the rims' speeds.
@@ -359,6 +373,9 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
             // Motors that droop turn the rims in their own time.
             return self.find(yaw, &rolling);
         }
+        if let Some(steady) = self.straight(yaw, now, &rolling) {
+            return Ok(steady);
+        }
         let ReachedState { steady, time } =
             self.settle(yaw, now, MOST_LONGER).ok_or(NotSteady::NoSteadyState)?;
         if time > LONGEST_WAY { Err(NotSteady::Slow { settling_time: time }) } else { Ok(steady) }
@@ -368,14 +385,24 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
     /// as they did before, without much of a change across it. Motors that droop have speeds of their
     /// own.
     fn goes_on(&self, before: &Vector3<f64>, now: &Vector3<f64>) -> bool {
+        !self.equations.droops()
+            && self.all_go_along(now)
+            && self.hubs_go_along(before)
+            && before.x * now.x > 0.0
+            && (now.y - before.y).abs() <= MUCH_THE_SAME * self.scale
+    }
+
+    /// Whether all wheels turn one way, and all hubs of rolling wheels move this way along the body.
+    fn all_go_along(&self, rolling: &Vector3<f64>) -> bool {
+        self.equations.rim_speeds().iter().all(|rim| rim * rolling.x > 0.0)
+            && self.hubs_go_along(rolling)
+    }
+
+    /// Whether all hubs move one way along the body.
+    fn hubs_go_along(&self, velocities: &Vector3<f64>) -> bool {
         let arms = self.equations.rover().load_arms();
         let side = arms.iter().map(|arm| arm.y.abs()).fold(0.0, f64::max);
-        let goes_along =
-            |it: &&Vector3<f64>| it.x * now.x > 0.0 && (it.z * side).abs() < it.x.abs();
-        !self.equations.droops()
-            && self.equations.rim_speeds().iter().all(|rim| rim * now.x > 0.0)
-            && [before, now].iter().all(goes_along)
-            && (now.y - before.y).abs() <= MUCH_THE_SAME * self.scale
+        (velocities.z * side).abs() < velocities.x.abs()
     }
 
     /// Whether no wheel is to turn.

@@ -9,6 +9,8 @@ use grouser::units::deg;
 use grouser::vehicle::drive::SlipTarget;
 use grouser::vehicle::{DriveLaw, RoverState};
 use proptest::prelude::*;
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::given::{self, RIM_SPEED, run, traverse};
 
@@ -276,6 +278,70 @@ fn stops_reversals_and_turns_on_the_spot_are_quasi_steady() {
             let apart = apart(&dynamic.now().state, &steady.now().state) / changes as f64;
             assert!(apart < 5e-4, "{name}: {apart} m or rad by each change");
         }
+    }
+}
+
+/// Where a rover can move in more than one way, what it did before decides: quasi-steady rovers come
+/// to the motion that dynamic ones come to, under commands of any size and sign with rests among
+/// them, on weak and firm sand, on the Earth and on the Moon. Velocities differ by less than a
+/// twentieth of the fastest rim's after half a second, but for one motion in a hundred (measured: 77
+/// of 14,241, and 135 where steps that followed a rover missed five times as much): near the limit
+/// between two of them little decides.
+#[test]
+fn quasi_steady_rovers_come_to_the_motion_of_dynamic_ones() {
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let mut between = |low: f64, high: f64| {
+        low + (high - low) * f64::from(random.next_u32()) / f64::from(u32::MAX)
+    };
+    let (mut compared, mut otherwise) = (0, Vec::new());
+    for rover in 0..120 {
+        let friction_angle = between(0.55, 0.70);
+        let mut base = traverse(deg(between(0.0, 18.0)), deg(between(0.0, 360.0)));
+        let gravity = if rover % 4 == 0 { 1.62 } else { 9.81 };
+        base.ground.soil.friction_angle = friction_angle;
+        let dynamic = Scenario { gravity, duration: 2.0, ..base };
+        let approach = Approach::QuasiSteady;
+        let numerics = Numerics { approach, ..dynamic.numerics };
+        let steady = Scenario { numerics, ..dynamic.clone() };
+        let mut runs = [&dynamic, &steady].map(simulator);
+        for command in 0..3 {
+            let rims: [f64; 4] = match rover % 3 {
+                0 if command == 1 => [0.0; 4],
+                2 => std::array::from_fn(|_| between(-0.1, 0.1)),
+                _ => sides(between(-0.1, 0.1), between(-0.1, 0.1)),
+            };
+            let goes_on = runs.iter_mut().all(|run| {
+                run.step(&rims, 0.5).expect("a step");
+                run.outcome().is_none()
+            });
+            if !goes_on {
+                break;
+            }
+            let [one, other] = runs.each_ref().map(|run| *run.state().rover());
+            let fastest = rims.iter().fold(0.01_f64, |most, rim| most.max(rim.abs()));
+            let turns = 0.2 * (one.yaw_rate - other.yaw_rate).abs();
+            let apart = (one.velocity - other.velocity).norm().max(turns) / fastest;
+            compared += 1;
+            if apart > 0.05 {
+                otherwise.push((rover, command, apart));
+                break;
+            }
+        }
+    }
+    assert!(compared > 300 && otherwise.len() <= 4, "of {compared}: {otherwise:?}");
+}
+
+/// Locked wheels hold a hub that crosses their plane where it is, within a speed of a micrometre a
+/// second of it, while it slides on along the plane: a motion a million times as stiff as the stop.
+/// A third of these stops had no end.
+#[test]
+fn a_rover_that_turns_on_a_slope_stops() {
+    for yaw in (0..40).map(|k| 56.0 + 0.3 * f64::from(k)) {
+        let mut scenario = Scenario { duration: 2.0, ..traverse(deg(15.19), deg(yaw)) };
+        scenario.ground.soil.friction_angle = 0.625;
+        let run = led(&scenario, 0.5, &[sides(0.0463, -0.0882), [0.0; 4]]);
+        let speed = run.state().rover().velocity.norm();
+        assert!(speed < 1e-6, "{speed} m/s at {yaw}°");
     }
 }
 

@@ -67,8 +67,10 @@ impl<const N: usize> Outlook<N> {
         let (count, length) = if same { (count + 1, length) } else { (0, span) };
         let stuck = count >= STAGNANT;
         let stiff = span * fastest > if implicit { MILD } else { STIFF };
-        if stiff && implicit && stuck {
-            return Self::first(SETTLING / fastest, true);
+        // Explicit ones that then follow would overshoot what they do not see, and be stuck by turns
+        // with them.
+        if implicit && stuck {
+            return Self::first(span.min(SETTLING / fastest), true);
         }
         let next = stiff || stuck && !implicit;
         Self { rates: None, span, implicit: next, stagnant: (count, length) }
