@@ -46,9 +46,9 @@ type Rule = fn(&Sources) -> usize;
 /// parts of a log with their causes, force arrows in scenes, fits and ends of designs on the console 500,
 /// and a conversion, of the slope in the command that reads a saved drive.
 /// Searches that begin where velocities are expected, and records that begin where those before point
-/// to, took 210.
+/// to, took 210; starts that go straight, and tangents that steps bring up to date, 80.
 const COUNTS: [(&str, usize, Rule); 9] = [
-    ("lines of Rust without comments and tests", 132_250, |all| all.rust.iter().map(lines).sum()),
+    ("lines of Rust without comments and tests", 132_330, |all| all.rust.iter().map(lines).sum()),
     ("lines of Python without comments and tests", 9_600, |all| all.python.iter().map(lines).sum()),
     ("files that name three outcomes or more as text", 1, outcome_homes),
     ("inputs of an answer written by hand (`fn settings`, `fn state`)", 18, |all| {
