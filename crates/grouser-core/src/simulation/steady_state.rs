@@ -295,7 +295,8 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         u.abs().max(v.abs()).max((rate * self.reach).abs()) / self.scale
     }
 
-    /// The steady state at a yaw, sought from velocities near enough for Newton's steps.
+    /// The steady state at a yaw, sought from velocities near enough for Newton's steps; that of motors
+    /// that droop from any, as ever.
     pub(super) fn find_near(
         &mut self,
         yaw: f64,

@@ -331,9 +331,8 @@ fn quasi_steady_rovers_come_to_the_motion_of_dynamic_ones() {
     assert!(compared > 300 && otherwise.len() <= 4, "of {compared}: {otherwise:?}");
 }
 
-/// Locked wheels hold a hub that crosses their plane where it is, within a speed of a micrometre a
-/// second of it, while it slides on along the plane: a motion a million times as stiff as the stop.
-/// A third of these stops had no end.
+/// A locked wheel stops its hub sideways, within a micrometre a second, while it slides on along its
+/// plane: a motion a million times as stiff as the stop. A third of these stops had no end.
 #[test]
 fn a_rover_that_turns_on_a_slope_stops() {
     for yaw in (0..40).map(|k| 56.0 + 0.3 * f64::from(k)) {

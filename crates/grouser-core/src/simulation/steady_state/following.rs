@@ -6,9 +6,10 @@
 //! (1/h − J) ΔV = a(V)
 //! ```
 //!
-//! A step whose end has other accelerations than the tangent said is taken again, shorter; where
-//! accelerations fade, steps lengthen, and from nearby Newton's steps lead on. J is taken by
-//! differences, and brought up to date by steps that it foresaw (Broyden 1965).
+//! J is taken by differences, and brought up to date by steps that it foresaw (Broyden 1965). A step
+//! whose end has other accelerations than the tangent said is taken again: with a J of its own, and
+//! where it had one, shorter. Where accelerations fade, steps lengthen, and from nearby Newton's steps
+//! lead on.
 //!
 //! Where the rover goes straight to a steady state, it need not be followed.
 
@@ -31,7 +32,8 @@ struct Followed {
 }
 
 /// Steps, those taken again included. Source: measured; some turns on the spot pass a place where
-/// they are almost steady, and of 12,000 turns 5 are not found in 60 steps, 3 in these.
+/// they are almost steady, and of 6,400 motions after random commands 26 are not found in 60 steps, 10
+/// in these, 9 in 120.
 const MOST_STEPS: usize = 80;
 /// How near that is, over the fastest rim's speed [-].
 const ARRIVED: f64 = 0.02;
@@ -60,7 +62,8 @@ const LITTLE: f64 = 0.1;
 const NEAR: f64 = 0.03;
 const STRAYING: f64 = 2.0;
 /// Shares of the way to a steady state at which it is seen whether the rover goes straight to it
-/// [-], and the least cosine between the way and where the rover is drawn there.
+/// [-], and the least cosine between the way and where the rover is drawn there. Source: measured;
+/// with 0.3, of 8,900 motions after random commands 11 more end otherwise than dynamic ones.
 const ON_THE_WAY: [f64; 4] = [0.0, 0.3, 0.6, 0.9];
 const STRAIGHT: f64 = 0.9;
 /// What forces may miss there [-].
@@ -146,8 +149,8 @@ impl SteadySolver<'_, '_> {
         missed * (way.component_mul(&lengths) / way.norm_squared()).transpose()
     }
 
-    /// A step, as long as the tangent foresees it; none where it foresees none, or the first one
-    /// badly and was not taken here.
+    /// A step, as long as the tangent foresees it; none where it foresees none. A tangent that was not
+    /// taken here is given up at its first miss.
     ///
     /// * `from`: velocities and accelerations
     /// * `is_new`: whether the tangent was taken here

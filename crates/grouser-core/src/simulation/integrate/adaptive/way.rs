@@ -16,7 +16,7 @@ const MILD: f64 = 1.5;
 /// miss it, and where slip settles steps become longer faster. Source: ours.
 const STAGNANT: u32 = 8;
 const LONGER: f64 = 1.5;
-/// Implicit steps that are stuck are followed by one of this length, times the motion's fastest
+/// Implicit steps that are stuck are followed by one of at most this length, times the motion's fastest
 /// rate. They are linear in the rates; where those have a kink, as where a hub all but rests, long
 /// steps keep an error that no shorter one of them loses, and one that follows the fastest motion
 /// does.
@@ -67,8 +67,8 @@ impl<const N: usize> Outlook<N> {
         let (count, length) = if same { (count + 1, length) } else { (0, span) };
         let stuck = count >= STAGNANT;
         let stiff = span * fastest > if implicit { MILD } else { STIFF };
-        // Explicit ones that then follow would overshoot what they do not see, and be stuck by turns
-        // with them.
+        // Mild ones, too: explicit steps would follow, overshoot a kink that they do not see, and be
+        // stuck again, by turns with these.
         if implicit && stuck {
             return Self::first(span.min(SETTLING / fastest), true);
         }
