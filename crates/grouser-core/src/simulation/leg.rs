@@ -92,7 +92,7 @@ impl Leg<'_> {
                 Err(Ended::NotSteady(because)) => {
                     equations.renew_allowance();
                     // What a search without an end left says nothing of this motion.
-                    drop(equations.take_near());
+                    drop((equations.take_near(), equations.take_failure()));
                     let time = self.state.time;
                     self.state.approach = Approach::Dynamic;
                     if self.state.method == Method::QuasiSteady {
