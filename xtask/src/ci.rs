@@ -88,9 +88,9 @@ const STEPS: [Step; 26] = {
     ]
 };
 
-/// A usual step that computes this many times what is usual is named at the end, shorter ones than
-/// that many seconds aside.
+/// A step that computes this many times what is usual is named at the end [-].
 const NAMED_FROM: f64 = 2.0;
+/// Steps that compute for less are not [s].
 const SHORT: f64 = 20.0;
 
 /// A step that was taken.

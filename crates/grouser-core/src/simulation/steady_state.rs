@@ -302,16 +302,20 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         yaw: f64,
         guess: &Vector3<f64>,
     ) -> Result<SteadyState, NotSteady> {
-        // A rover at rest that is turned, or whose motors roll back, has no speed to measure by.
-        if self.is_at_rest() && (self.equations.is_held() || self.equations.droops()) {
-            return Err(NotSteady::NoSteadyState);
-        }
-        let found = if self.equations.droops() {
+        let found = if self.has_no_measure() {
+            None
+        } else if self.equations.droops() {
             self.find_turning(yaw, guess)
         } else {
             self.find_close(yaw, guess)
         };
         found.ok_or(NotSteady::NoSteadyState)
+    }
+
+    /// Whether the rover has no speed to measure by: at rest, and turned, or with motors that roll
+    /// back.
+    fn has_no_measure(&self) -> bool {
+        self.is_at_rest() && (self.equations.is_held() || self.equations.droops())
     }
 
     /// The same, from velocities that may be farther off: then what the rover comes to from there.
@@ -321,8 +325,7 @@ impl<'a, 'g> SteadySolver<'a, 'g> {
         guess: &Vector3<f64>,
     ) -> Result<SteadyState, NotSteady> {
         let found = self.find_near(yaw, guess);
-        if found.is_ok() || self.equations.droops() || self.is_at_rest() && self.equations.is_held()
-        {
+        if found.is_ok() || self.equations.droops() || self.has_no_measure() {
             return found;
         }
         self.settle(yaw, guess, 0.0).map(|it| it.steady).ok_or(NotSteady::NoSteadyState)

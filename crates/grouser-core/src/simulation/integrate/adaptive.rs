@@ -240,7 +240,7 @@ impl<F: Fn(&Numbers<N>) -> Option<Numbers<N>>, const N: usize> Motion<F, N> {
             };
             match attempt {
                 Some(Attempt { step, rates, fastest }) if miss <= 1.0 => {
-                    let next = Outlook { rates, ..outlook.after(implicit, factor * span, fastest) };
+                    let next = Outlook { rates, ..outlook.after(factor * span, fastest) };
                     return Ok(Way { start: now, span, step, implicit, next, seen: (now, from) });
                 }
                 _ => {

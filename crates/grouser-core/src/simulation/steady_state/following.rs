@@ -205,8 +205,10 @@ impl SteadySolver<'_, '_> {
         now: &Vector3<f64>,
         rolling: &Vector3<f64>,
     ) -> Option<SteadyState> {
-        let starts = self.size(now) <= LITTLE && self.all_go_along(rolling);
-        let steady = starts.then(|| self.find_close(yaw, rolling))??;
+        if self.size(now) > LITTLE || !self.all_go_along(rolling) {
+            return None;
+        }
+        let steady = self.find_close(yaw, rolling)?;
         let lengths = self.lengths();
         let change = steady.velocities - now;
         let way = change.component_mul(&lengths);

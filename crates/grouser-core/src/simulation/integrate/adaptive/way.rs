@@ -16,8 +16,8 @@ const MILD: f64 = 1.5;
 /// miss it, and where slip settles steps become longer faster. Source: ours.
 const STAGNANT: u32 = 8;
 const LONGER: f64 = 1.5;
-/// Implicit steps that are stuck are followed by one of at most this length, times the motion's fastest
-/// rate. They are linear in the rates; where those have a kink, as where a hub all but rests, long
+/// Implicit steps that are stuck are followed by one of at most this length, times the motion's
+/// fastest rate. They are linear in the rates; where those have a kink, as where a hub all but rests, long
 /// steps keep an error that no shorter one of them loses, and one that follows the fastest motion
 /// does.
 const SETTLING: f64 = 0.5;
@@ -45,8 +45,7 @@ pub(super) struct Outlook<const N: usize> {
     /// How long it should be [s], and whether implicit.
     pub(super) span: f64,
     pub(super) implicit: bool,
-    /// Steps of the same method since they last became markedly longer, and how long they were then
-    /// [s].
+    /// Steps since they last became markedly longer, and how long they were then [s].
     pub(super) stagnant: (u32, f64),
 }
 
@@ -57,14 +56,13 @@ impl<const N: usize> Outlook<N> {
         Self { rates: None, span, implicit, stagnant: (0, span) }
     }
 
-    /// What an explicit or an implicit step knows of the next one.
+    /// What the step that this foresaw knows of the next one.
     ///
     /// * `span`: how long that may be for its error [s]
     /// * `fastest`: the fastest rate of the motion [1/s], from an explicit step at least its order
-    pub(super) fn after(self, implicit: bool, span: f64, fastest: f64) -> Self {
-        let (count, length) = self.stagnant;
-        let same = implicit == self.implicit && span <= LONGER * length;
-        let (count, length) = if same { (count + 1, length) } else { (0, span) };
+    pub(super) fn after(self, span: f64, fastest: f64) -> Self {
+        let Self { implicit, stagnant: (count, length), .. } = self;
+        let (count, length) = if span <= LONGER * length { (count + 1, length) } else { (0, span) };
         let stuck = count >= STAGNANT;
         let stiff = span * fastest > if implicit { MILD } else { STIFF };
         // Mild ones, too: explicit steps would follow, overshoot a kink that they do not see, and be
